@@ -1,0 +1,66 @@
+# Every target works as the first command in a fresh clone: what it needs is made first.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/ready
+
+.DEFAULT_GOAL := help
+.PHONY: help book test lint lab figures ledger accept lock clean
+
+help:  ## list the targets
+	@grep -hE '^[a-z][a-z%-]*:.*## ' $(MAKEFILE_LIST) | sort \
+	  | awk -F ':.*## ' '{ printf "  make %-10s %s\n", $$1, $$2 }'
+
+$(READY): environment.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
+	  echo "softgrip needs Python 3.11 or newer; $(PYTHON) is $$($(PYTHON) --version 2>&1)." \
+	       "Name another: make PYTHON=python3.12"; exit 1; }
+	@echo "Making $(VENV) from environment.lock: about two minutes and 1.5 GB, once."
+	@if command -v uv >/dev/null; then \
+	  uv venv --quiet --allow-existing --python $(PYTHON) $(VENV) && \
+	  VIRTUAL_ENV=$(VENV) uv pip install --quiet --require-hashes -r environment.lock && \
+	  VIRTUAL_ENV=$(VENV) uv pip install --quiet --no-deps --no-build-isolation -e .; \
+	else \
+	  $(PYTHON) -m venv $(VENV) && \
+	  $(BIN)/python -m pip install --quiet --require-hashes -r environment.lock && \
+	  $(BIN)/python -m pip install --quiet --no-deps --no-build-isolation -e .; \
+	fi
+	@touch $@
+
+book: $(READY)  ## build the book: book/_build/html/index.html
+	@$(BIN)/jupyter-book build --quiet -W -n --keep-going book
+	@echo "The book: file://$(CURDIR)/book/_build/html/index.html"
+
+test: $(READY)  ## run the tests; those of the pages build the book and open it in Chromium
+	@$(BIN)/python -m pytest
+
+lint: $(READY)  ## check style, types and the direction of imports
+	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check .
+	@$(BIN)/mypy
+	@$(BIN)/lint-imports --no-cache
+
+lab: $(READY)  ## open the book in JupyterLab (a chapter: right click, Open With, Notebook)
+	@$(BIN)/jupyter lab book
+
+figures: $(READY)  ## write every figure and table to book/_build/figures
+	@$(BIN)/python -m softgrip.figures
+
+figure-%: $(READY)
+	@$(BIN)/python -m softgrip.figures $@
+
+table-%: $(READY)
+	@$(BIN)/python -m softgrip.figures $@
+
+ledger: $(READY)  ## judge every printed number: book/_build/ledger.json
+	@$(BIN)/python -m softgrip.ledger
+
+accept: $(READY)  ## make today's verdicts the expected ones (look at the diff)
+	@$(BIN)/python -m softgrip.ledger --accept
+
+lock: $(READY)  ## resolve the dependencies of pyproject.toml anew
+	@$(BIN)/uv pip compile pyproject.toml --all-extras --universal --generate-hashes \
+	  --python-version 3.11 --no-header --no-annotate --upgrade --quiet -o environment.lock
+
+clean:  ## remove what was built; the environment stays
+	@rm -rf book/_build book/_vendor .pytest_cache .mypy_cache .ruff_cache .hypothesis

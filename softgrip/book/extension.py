@@ -1,0 +1,85 @@
+"""The Sphinx extension of the book: scripts without a network, stale pages, numbers."""
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+from jupyter_cache import get_cache
+from sphinx.application import Sphinx
+
+from softgrip.book import numbering, tracing, vendor
+
+def _build_folder(app: Sphinx) -> Path:
+    return Path(app.outdir).parent
+
+
+def _trace(app: Sphinx, page: str) -> Path:
+    return _build_folder(app) / "traces" / f"{page}.json"
+
+
+def use_local_scripts(app: Sphinx, config: Any) -> None:
+    """Point the pages at fetched scripts; where none can be had, at the usual addresses."""
+    folder = Path(app.srcdir) / "_vendor"
+    if vendor.ensure(folder):
+        config.html_extra_path = [str(folder)]
+        config.mathjax_path = "mathjax/tex-mml-chtml.js"
+        config.nb_ipywidgets_js = {"widgets/require.js": {}, "widgets/embed-amd.js": {}}
+    else:
+        print(
+            "NOTE: the npm registry cannot be reached. The book is built all the same, but its\n"
+            "      pages will load MathJax and the widget scripts from public CDN addresses, and\n"
+            "      show neither equations nor sliders without a network.",
+            flush=True,
+        )
+
+
+def prepare_kernels(app: Sphinx) -> None:
+    """Make the kernels of this build record what they read, and draw sliders as frames."""
+    ipython = _build_folder(app) / "ipython"
+    tracing.install_hook(ipython)
+    os.environ["IPYTHONDIR"] = str(ipython)
+    os.environ["SOFTGRIP_BOOK"] = "static"
+
+
+def find_stale_pages(
+    app: Sphinx, env: Any, _added: set[str], _changed: set[str], _removed: set[str]
+) -> list[str]:
+    """Drop the kept outputs whose trace no longer holds, and have their pages read again.
+
+    One output is kept a page, the newest: an older one, of a former text, has lost its trace.
+    """
+    cache = get_cache(env.mystnb_config.execution_cache_path)
+    around = tracing.surroundings()
+    stale, seen = set(), set()
+    for entry in sorted(cache.list_cache_records(), key=lambda e: e.created, reverse=True):
+        page = Path(entry.uri).relative_to(app.srcdir).with_suffix("").as_posix()
+        current = page in env.found_docs and tracing.is_current(_trace(app, page), around)
+        if not current:
+            stale.add(page)
+        if not current or page in seen:
+            cache.remove_cache(entry.pk)
+        seen.add(page)
+    for page in sorted(stale):
+        print(f"stale: {page} (something that it uses has changed)", flush=True)
+    return sorted(stale & env.found_docs)
+
+
+def announce(app: Sphinx, page: str, _source: list[str]) -> None:
+    """Tell the kernel that may now start which page it serves."""
+    trace = _trace(app, page)
+    os.environ[tracing.TRACE_VARIABLE] = str(trace)
+    context = trace.with_suffix(".context.json")
+    context.parent.mkdir(parents=True, exist_ok=True)
+    context.write_text(json.dumps(tracing.surroundings()))
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Connect the parts to the stages of a build."""
+    numbering.setup(app)
+    app.connect("config-inited", use_local_scripts)
+    app.connect("builder-inited", prepare_kernels)
+    app.connect("env-get-outdated", find_stale_pages)
+    app.connect("source-read", announce)
+    app.add_css_file("softgrip.css")
+    return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}

@@ -1,0 +1,105 @@
+"""Which files a page depends on: recorded while its kernel runs, compared before the next build.
+
+jupyter-cache keys a page's outputs on the page's text alone. A page is also stale when a module
+that it imported, or a data file that it opened, has changed. The kernel of each page writes both,
+with their digests, into a trace (`record`, called by an IPython startup file that `install_hook`
+lays); the build re-executes the pages whose trace no longer holds (`is_current`).
+"""
+
+import atexit
+import hashlib
+import json
+import os
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+import softgrip
+
+TRACE_VARIABLE = "SOFTGRIP_PAGE_TRACE"
+ROOT = Path(softgrip.__file__).resolve().parent.parent
+WATCHED = (ROOT / "softgrip", ROOT / "data")
+BUILD = ROOT / "softgrip" / "book"  # builds the pages, and is used by none
+
+STARTUP = f"""\
+import os
+if os.environ.get({TRACE_VARIABLE!r}):
+    from softgrip.book import tracing
+    tracing.record(os.environ[{TRACE_VARIABLE!r}])
+"""
+
+
+def install_hook(ipython_folder: Path) -> None:
+    """Make kernels started with IPYTHONDIR at this folder record what they read."""
+    startup = ipython_folder / "profile_default" / "startup" / "00-trace.py"
+    startup.parent.mkdir(parents=True, exist_ok=True)
+    startup.write_text(STARTUP)
+
+
+def surroundings() -> dict[str, str]:
+    """What every page depends on beside its files: Python, the libraries, the public data."""
+    from softgrip.materials import tensile
+
+    return {
+        "python": sys.version,
+        "environment.lock": digest(ROOT / "environment.lock"),
+        "tensile tests": "available" if tensile.available() else "not available",
+    }
+
+
+def digest(path: Path) -> str:
+    """SHA-256 of a file, or ``missing``."""
+    return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "missing"
+
+
+def _watched(paths: Iterable[str]) -> set[Path]:
+    files = (Path(path) for path in paths)
+    return {
+        file
+        for file in files
+        if any(file.is_relative_to(top) for top in WATCHED)
+        and "__pycache__" not in file.parts
+        and not file.is_relative_to(BUILD)
+    }
+
+
+def record(trace: str) -> None:
+    """Watch this process; when it ends, write the watched files that it used into ``trace``.
+
+    Modules are taken from `sys.modules` (an import opens the compiled file, not the source), data
+    files from the interpreter's own audit of what is opened for reading.
+    """
+    opened: set[str] = set()
+
+    def audit(event: str, args: tuple[object, ...]) -> None:
+        if event == "open" and isinstance(args[0], str | os.PathLike):
+            mode = args[1]
+            if mode is None or (isinstance(mode, str) and "r" in mode):
+                opened.add(os.path.realpath(args[0]))
+
+    def write() -> None:
+        modules = (
+            os.path.realpath(module.__file__)
+            for module in list(sys.modules.values())
+            if getattr(module, "__file__", None)
+        )
+        files = sorted(_watched(opened) | _watched(modules))
+        content = {str(file.relative_to(ROOT)): digest(file) for file in files}
+        Path(trace).parent.mkdir(parents=True, exist_ok=True)
+        Path(trace).write_text(json.dumps(content, indent=1))
+
+    sys.addaudithook(audit)
+    atexit.register(write)
+
+
+def is_current(trace: Path, around: dict[str, str]) -> bool:
+    """Tell whether every file of a trace is still as the page read it, and so its surroundings."""
+    if not trace.is_file():
+        return False
+    seen = json.loads(trace.read_text())
+    context = trace.with_suffix(".context.json")
+    return (
+        all(digest(ROOT / name) == value for name, value in seen.items())
+        and context.is_file()
+        and json.loads(context.read_text()) == around
+    )

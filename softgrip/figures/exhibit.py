@@ -1,0 +1,125 @@
+"""What a figure or a table is: its function, and what stands beside it wherever it is shown."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Literal, TypeVar
+
+from softgrip.errors import UnknownNameError
+from softgrip.provenance import DataFile, Provenance, data_file
+
+Kind = Literal["figure", "table"]
+Make = TypeVar("Make", bound=Callable[[], object])
+
+
+@dataclass(frozen=True)
+class Exhibit:
+    """A numbered figure or table of the book."""
+
+    kind: Kind
+    number: str
+    """The dissertation's number, such as ``5.1``; letters (``5.A``) for those of our own."""
+    caption: str
+    alt: str
+    make: Callable[[], object]
+    data: tuple[DataFile, ...]
+    provenance: Provenance
+    """Class of what is shown; the data files have their own."""
+
+    @property
+    def name(self) -> str:
+        """File name without ending."""
+        return f"{self.kind}-{self.number.replace('.', '-').lower()}"
+
+    @property
+    def label(self) -> str:
+        """Label for cross-references in the book."""
+        return f"{self.kind[:3]}-{self.number.replace('.', '-').lower()}"
+
+    @property
+    def title(self) -> str:
+        """Such as ``Figure 5.1``."""
+        return f"{self.kind.capitalize()} {self.number}"
+
+    @property
+    def in_dissertation(self) -> bool:
+        """Whether the dissertation has it, or it is ours."""
+        return self.number.split(".")[1].isdigit()
+
+    @property
+    def command(self) -> str:
+        """The command that makes this exhibit alone."""
+        return f"make {self.name}"
+
+
+EXHIBITS: dict[tuple[Kind, str], Exhibit] = {}
+CHAPTERS = ("5",)
+
+
+def _register(
+    kind: Kind, number: str, caption: str, alt: str, data: tuple[str, ...], provenance: Provenance
+) -> Callable[[Make], Make]:
+    def keep(make: Make) -> Make:
+        files = tuple(data_file(name) for name in data)
+        EXHIBITS[kind, number] = Exhibit(kind, number, caption, alt, make, files, provenance)
+        return make
+
+    return keep
+
+
+def figure(
+    number: str, *, caption: str, alt: str, provenance: Provenance, data: tuple[str, ...] = ()
+) -> Callable[[Make], Make]:
+    """Register a function that returns a matplotlib Figure.
+
+    Parameters
+    ----------
+    number
+        The dissertation's number, or chapter and a letter.
+    caption
+        What is shown, as MyST Markdown.
+    alt
+        The picture in words, for those who do not see it.
+    provenance
+        Class of what is drawn.
+    data
+        The files below ``data/`` that it is drawn from.
+    """
+    return _register("figure", number, caption, alt, data, provenance)
+
+
+def table(
+    number: str, *, caption: str, provenance: Provenance, data: tuple[str, ...] = ()
+) -> Callable[[Make], Make]:
+    """Register a function that returns a pandas DataFrame; parameters as for `figure`."""
+    return _register("table", number, caption, "", data, provenance)
+
+
+def exhibit(title: str) -> Exhibit:
+    """Find a figure or table by its title, importing its chapter's file only.
+
+    Parameters
+    ----------
+    title
+        Such as ``Figure 5.1``.
+
+    Raises
+    ------
+    UnknownNameError
+        If there is none; the message lists those of the chapter.
+    """
+    kind, _, number = title.lower().partition(" ")
+    chapter = number.partition(".")[0]
+    if chapter in CHAPTERS:
+        import_module(f"softgrip.figures.chapter_{chapter}")
+    for found in EXHIBITS.values():
+        if (found.kind, found.number.lower()) == (kind, number):
+            return found
+    raise UnknownNameError("figure or table", title, [found.title for found in EXHIBITS.values()])
+
+
+def exhibits() -> list[Exhibit]:
+    """Return every figure and table of every chapter."""
+    for chapter in CHAPTERS:
+        import_module(f"softgrip.figures.chapter_{chapter}")
+    return list(EXHIBITS.values())

@@ -1,0 +1,89 @@
+"""Exhibits as files that are the same, to the bit, from run to run; and their numbers as CSV."""
+
+from pathlib import Path
+from time import perf_counter
+from typing import Any, cast
+
+import numpy as np
+import pandas as pd
+from matplotlib.collections import PathCollection
+from matplotlib.container import BarContainer
+from matplotlib.figure import Figure
+
+from softgrip.figures.exhibit import Exhibit
+from softgrip.figures.style import style
+
+
+def make(exhibit: Exhibit) -> tuple[Any, float]:
+    """Make an exhibit in the book's style; return it with the seconds that it took."""
+    start = perf_counter()
+    with style():
+        made = exhibit.make()
+    return made, perf_counter() - start
+
+
+def _points(axes: Any) -> list[tuple[str, Any, Any]]:
+    """Return (name, x, y) of all that is drawn in data coordinates."""
+    found: list[tuple[str, Any, Any]] = []
+    for line in axes.lines:
+        if line.get_transform().contains_branch(axes.transData):
+            found.append((line.get_label(), *line.get_data()))
+    for item in axes.collections:
+        if isinstance(item, PathCollection) and len(item.get_offsets()):
+            found.append((item.get_label(), *np.asarray(item.get_offsets()).T))
+    for item in axes.containers:
+        if isinstance(item, BarContainer):
+            edges = [(bar.get_x() + bar.get_width() / 2, bar.get_height()) for bar in item]
+            found.append((item.get_label(), *np.transpose(edges)))
+    return found
+
+
+def numbers(figure: Figure) -> pd.DataFrame:
+    """Read the numbers of a figure back from what is drawn, so that the two cannot differ.
+
+    Returns
+    -------
+    DataFrame
+        One row a point: panel, series, x, y; the axes' labels, with units, are in ``x_is`` and
+        ``y_is``.
+    """
+    rows = []
+    for index, axes in enumerate(figure.axes):
+        panel = axes.get_title(loc="left") or f"panel {index + 1}"
+        for count, (label, x, y) in enumerate(_points(axes)):
+            series = f"series {count + 1}" if str(label).startswith("_") else label
+            rows.append(
+                pd.DataFrame(
+                    {
+                        "panel": panel,
+                        "series": series,
+                        "x": np.asarray(x),
+                        "y": np.asarray(y),
+                        "x_is": axes.get_xlabel(),
+                        "y_is": axes.get_ylabel(),
+                    }
+                )
+            )
+    return pd.concat(rows, ignore_index=True) if rows else pd.DataFrame()
+
+
+def save(exhibit: Exhibit, folder: Path) -> tuple[Any, float]:
+    """Make an exhibit and write it: a figure as SVG and CSV, a table as CSV.
+
+    Returns
+    -------
+    tuple
+        The Figure or DataFrame, and the seconds that it took to make.
+    """
+    made, seconds = make(exhibit)
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / exhibit.name
+    if exhibit.kind == "table":
+        cast(pd.DataFrame, made).to_csv(path.with_suffix(".csv"), index=False, lineterminator="\n")
+    else:
+        with style():
+            made.savefig(path.with_suffix(".svg"), metadata={"Date": None, "Creator": None})
+        numbers(made).to_csv(
+            path.with_suffix(".csv"), index=False, float_format="%.8g", lineterminator="\n"
+        )
+    return made, seconds

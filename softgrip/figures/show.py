@@ -1,0 +1,192 @@
+"""Exhibits and verdicts as a page shows them: numbered, captioned, with their provenance.
+
+In the book's build (``SOFTGRIP_BOOK=static``) what is shown is MyST Markdown with a numbered,
+referable figure or table; in a notebook it is HTML with the same content.
+"""
+
+import base64
+import html
+import os
+from collections import Counter
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from softgrip.figures.exhibit import Exhibit, exhibit
+from softgrip.figures.save import save
+from softgrip.ledger import Entry, Verdict, ledger
+
+FOLDER = Path("_build/figures")
+
+MARKS = {
+    Verdict.REPRODUCED: "✓",
+    Verdict.CLOSE: "≈",
+    Verdict.ASSUMED: "◇",
+    Verdict.DIFFERS: "✗",
+    Verdict.MEASURED: "◉",
+    Verdict.CITED: "❝",
+}
+"""A verdict is told by mark and word, never by colour alone."""
+
+
+def chip(verdict: Verdict, text: str) -> str:
+    """Return a verdict as a small coloured label."""
+    return f'<span class="verdict {verdict}">{MARKS[verdict]} {html.escape(text)}</span>'
+
+
+def _in_static_book() -> bool:
+    return os.environ.get("SOFTGRIP_BOOK") == "static"
+
+
+def _html_table(frame: pd.DataFrame) -> str:
+    markup = str(frame.to_html(index=False, border=0, escape=False, classes="exhibit"))
+    return markup.replace(' style="text-align: right;"', "")
+
+
+def _number(value: float | None) -> str:
+    return "" if value is None else f"{value:.4g}"
+
+
+def verdict_table(entries: list[Entry]) -> str:
+    """Return entries as an HTML table: printed, recomputed, verdict, and what to know of it."""
+    rows = []
+    for entry in entries:
+        claim = entry.claim
+        sign = "" if claim.relation == "=" else f"{claim.relation} "
+        remarks = " ".join(filter(None, [claim.assumptions, claim.note]))
+        if entry.band:
+            values = [value for _, value in entry.band]
+            spread = f"{_number(min(values))} to {_number(max(values))}"
+            remarks += f" Band, {claim.band.what if claim.band else ''}: {spread}."
+        rows.append(
+            f'<tr id="claim-{claim.id}"><td>{html.escape(claim.where)}</td>'
+            f"<td>{html.escape(claim.what)}</td>"
+            f"<td class='number'>{html.escape(sign + claim.printed)}</td>"
+            f"<td class='number'>{_number(entry.recomputed)}</td>"
+            f"<td>{html.escape(claim.unit)}</td><td>{chip(entry.verdict, entry.verdict)}</td>"
+            f"<td>{html.escape(remarks.strip())}</td></tr>"
+        )
+    head = "".join(
+        f'<th scope="col">{name}</th>'
+        for name in ("where", "what", "printed", "recomputed", "unit", "verdict", "remarks")
+    )
+    return (
+        '<div class="scrolling"><table class="ledger"><thead><tr>'
+        f"{head}</tr></thead><tbody>{''.join(rows)}</tbody></table></div>"
+    )
+
+
+@dataclass(frozen=True)
+class Html:
+    """A piece of HTML that a notebook displays."""
+
+    markup: str
+
+    def _repr_html_(self) -> str:
+        return self.markup
+
+
+def show_verdicts(chapter: int | None = None, *, where: tuple[str, ...] = ()) -> Html:
+    """Show the ledger of a chapter (or all), or of the places that are named."""
+    entries = [e for e in ledger(chapter) if not where or e.claim.where in where]
+    count = Counter(entry.verdict for entry in entries)
+    chips = " ".join(chip(v, f"{count[v]} {v}") for v in Verdict if count[v])
+    return Html(f'<p class="counts">{chips}</p>{verdict_table(entries)}')
+
+
+@dataclass(frozen=True)
+class Shown:
+    """An exhibit made, with all that stands beside it."""
+
+    exhibit: Exhibit
+    made: Any
+    seconds: float
+
+    @cached_property
+    def verdicts(self) -> str:
+        """The verdicts on the numbers printed at this place, counted."""
+        item = self.exhibit
+        if not item.in_dissertation:
+            return ""
+        entries = ledger(int(item.number.split(".")[0]))
+        count = Counter(e.verdict for e in entries if e.claim.where == item.title)
+        return " ".join(chip(verdict, f"{count[verdict]} {verdict}") for verdict in count)
+
+    def _facts(self) -> list[str]:
+        item = self.exhibit
+        origin = f"Dissertation {item.title}" if item.in_dissertation else "Not in the dissertation"
+        files = [f"{f.path.name} ({f.provenance}, sha256 {f.digest})" for f in item.data]
+        return [
+            f"{origin}",
+            f"shown: <b>{item.provenance}</b>",
+            *([f"data: {', '.join(files)}"] if files else []),
+            f"made in {self.seconds:.1f} s by <code>{item.command}</code>",
+        ]
+
+    def _myst(self) -> str:
+        item = self.exhibit
+        source = f"{item.make.__module__}.{item.make.__name__}"
+        strip = " · ".join(
+            filter(
+                None,
+                [
+                    self.verdicts,
+                    *self._facts(),
+                    f"{{py:func}}`source <{source}>`",
+                    f"{{download}}`numbers as CSV </{FOLDER}/{item.name}.csv>`",
+                ],
+            )
+        )
+        provenance = f"\n\n::::{{container}} provenance\n{strip}\n::::\n"
+        if item.kind == "table":
+            body = f":::::{{table}} {item.caption}\n:name: {item.label}\n\n{self._markdown()}\n:::::"
+        else:
+            body = (
+                f":::::{{figure}} /{FOLDER}/{item.name}.svg\n:name: {item.label}\n"
+                f":alt: {item.alt}\n:class: exhibit\n\n{item.caption}\n:::::"
+            )
+        return body + provenance
+
+    def _markdown(self) -> str:
+        frame: pd.DataFrame = self.made
+        numeric = [pd.api.types.is_numeric_dtype(kind) for kind in frame.dtypes]
+        lines = [
+            "| " + " | ".join(map(str, frame.columns)) + " |",
+            "|" + "|".join("---:" if right else ":---" for right in numeric) + "|",
+            *("| " + " | ".join(map(str, row)) + " |" for row in frame.itertuples(index=False)),
+        ]
+        return "\n".join(lines)
+
+    def _html(self) -> str:
+        item = self.exhibit
+        strip = " · ".join(filter(None, [self.verdicts, *self._facts()]))
+        if item.kind == "table":
+            body = _html_table(self.made)
+        else:
+            data = base64.b64encode((Path(FOLDER) / f"{item.name}.svg").read_bytes()).decode()
+            body = (
+                f'<img alt="{html.escape(item.alt)}" style="max-width: 100%; width: 640px" '
+                f'src="data:image/svg+xml;base64,{data}">'
+            )
+        return f"{body}<p><b>{item.title}</b> {html.escape(item.caption)}</p><p><small>{strip}</small></p>"
+
+    def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
+        if _in_static_book():
+            return {"text/markdown": self._myst()}
+        return {"text/html": self._html()}
+
+
+def show(title: str) -> Shown:
+    """Make a figure or table and show it with its number, caption and provenance.
+
+    Parameters
+    ----------
+    title
+        Such as ``Figure 5.1``.
+    """
+    item = exhibit(title)
+    made, seconds = save(item, FOLDER)
+    return Shown(item, made, seconds)
