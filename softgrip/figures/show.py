@@ -18,6 +18,7 @@ import pandas as pd
 from softgrip.figures.exhibit import Exhibit, exhibit
 from softgrip.figures.save import save
 from softgrip.ledger import Entry, Verdict, ledger
+from softgrip.ledger.counts import counts_table
 
 FOLDER = Path("_build/figures")
 
@@ -95,6 +96,21 @@ def show_verdicts(chapter: int | None = None, *, where: tuple[str, ...] = ()) ->
     count = Counter(entry.verdict for entry in entries)
     chips = " ".join(chip(v, f"{count[v]} {v}") for v in Verdict if count[v])
     return Html(f'<p class="counts">{chips}</p>{verdict_table(entries)}')
+
+
+@dataclass(frozen=True)
+class Markdown:
+    """A piece of Markdown that a notebook displays."""
+
+    text: str
+
+    def _repr_markdown_(self) -> str:
+        return self.text
+
+
+def show_counts() -> Markdown:
+    """Show how the verdicts stand, by chapter."""
+    return Markdown(counts_table(ledger()))
 
 
 @dataclass(frozen=True)

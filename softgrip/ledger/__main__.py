@@ -11,7 +11,8 @@ import re
 from collections import Counter
 from pathlib import Path
 
-from softgrip.ledger.verdict import Entry, Verdict, ledger
+from softgrip.ledger.counts import counts_table
+from softgrip.ledger.verdict import ledger
 from softgrip.provenance import data_folder
 
 EXPECTED = "claims/expected.csv"
@@ -23,20 +24,6 @@ def expected() -> dict[str, str]:
     with (data_folder() / EXPECTED).open(encoding="utf-8") as stream:
         rows = csv.DictReader(line for line in stream if not line.startswith("#"))
         return {row["id"]: row["verdict"] for row in rows}
-
-
-def counts_table(entries: list[Entry]) -> str:
-    """Return the counts by chapter and verdict as a Markdown table."""
-    chapters = sorted({entry.claim.chapter for entry in entries})
-    lines = [
-        "| chapter | " + " | ".join(Verdict) + " | claims |",
-        "|---" * (len(Verdict) + 2) + "|",
-    ]
-    for chapter in chapters:
-        count = Counter(e.verdict for e in entries if e.claim.chapter == chapter)
-        cells = [str(count[verdict]) for verdict in Verdict]
-        lines.append(f"| {chapter} | " + " | ".join(cells) + f" | {count.total()} |")
-    return "\n".join(lines)
 
 
 def write_counts(readme: Path, table: str) -> None:

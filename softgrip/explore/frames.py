@@ -1,0 +1,113 @@
+"""Figures as small pictures, and how many of them a page may carry."""
+
+import io
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image
+
+from softgrip.errors import InvalidInputError
+
+DPI = 120
+MAX_FRAMES = 125
+"""Frames of one explorer: all are drawn while the book is built."""
+MAX_PAGE = 3_000_000
+"""Characters of base64 that the frames of one page may take: all are loaded with it."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A figure as WebP, and its size in pixels."""
+
+    webp: bytes
+    width: int
+    height: int
+
+    @property
+    def size(self) -> int:
+        """Characters of base64 that the frame takes in a page."""
+        return 4 * -(-len(self.webp) // 3)
+
+
+def _encode(figure: Figure) -> Frame:
+    # Not savefig: its result depends on settings of the notebook, such as a tight bounding box.
+    figure.set_dpi(DPI)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    picture = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+    # 256 colours halve the file, and no colour of a line drawing moves far enough to be seen.
+    picture = picture.quantize(256, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+    file = io.BytesIO()
+    picture.convert("RGB").save(file, format="webp", lossless=True, method=4)
+    return Frame(file.getvalue(), *picture.size)
+
+
+def render(draw: Callable[..., Figure], parameters: Mapping[str, Any]) -> Frame:
+    """Draw one frame, and leave no pyplot figure open that was not open before.
+
+    Parameters
+    ----------
+    draw
+        Returns a matplotlib Figure.
+    parameters
+        What it is called with.
+
+    Raises
+    ------
+    InvalidInputError
+        If it returns something else. What it raises itself passes, with the parameters noted.
+    """
+    before = set(plt.get_fignums())
+    try:
+        figure = draw(**parameters)
+        if not isinstance(figure, Figure):
+            raise InvalidInputError("draw", expected="a function that returns a Figure", got=figure)
+        return _encode(figure)
+    except Exception as error:
+        error.add_note(f"while drawing with {dict(parameters)}")
+        raise
+    finally:
+        for number in set(plt.get_fignums()) - before:
+            plt.close(number)
+
+
+def check_count(count: int) -> None:
+    """Raise `InvalidInputError` if an explorer has more frames than one may have."""
+    if count > MAX_FRAMES:
+        expected = f"at most {MAX_FRAMES} combinations of values (give the sliders fewer steps)"
+        raise InvalidInputError("number of frames", expected=expected, got=count)
+
+
+class Budget:
+    """What the frames of a page take together: a page has a process of its own."""
+
+    def __init__(self, limit: int = MAX_PAGE) -> None:
+        self.limit = limit
+        self.spent = 0
+
+    def spend(self, frames: Sequence[Frame]) -> None:
+        """Count the frames of one explorer in.
+
+        Raises
+        ------
+        InvalidInputError
+            If the page's frames are now larger than the limit; these are then not counted.
+        """
+        asked = sum(frame.size for frame in frames)
+        total = self.spent + asked
+        if total > self.limit:
+            expected = (
+                f"at most {self.limit / 1e6:.2f} MB in base64 (take fewer steps or a smaller "
+                f"figure; these {len(frames)} frames take {asked / 1e6:.2f} MB)"
+            )
+            got = f"{total / 1e6:.2f} MB"
+            raise InvalidInputError("the frames of this page", expected=expected, got=got)
+        self.spent = total
+
+
+PAGE = Budget()

@@ -1,0 +1,127 @@
+"""What a slider offers: its values, how they are written, and where it starts."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from numbers import Real
+
+import numpy as np
+
+from softgrip.errors import InvalidInputError
+from softgrip.explore.frames import MAX_FRAMES
+
+Value = float | str
+
+
+def _same(one: Value, other: Value) -> bool:
+    if isinstance(one, str) or isinstance(other, str):
+        return one == other
+    return math.isclose(one, other, rel_tol=1e-9)
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.12g}")  # 0.3, not 0.30000000000000004, where a figure prints it
+
+
+@dataclass(frozen=True)
+class Slider:
+    """The values that one parameter of a figure may take.
+
+    Raises
+    ------
+    InvalidInputError
+        If there are fewer than two values, if one is neither a finite number nor a string, if
+        two are the same, or if the default is not one of them.
+    """
+
+    values: Sequence[Value]
+    label: str
+    unit: str = ""
+    default: Value | None = None
+    """The value shown first; None is the first value."""
+    continuous: bool = False
+    """Whether a live slider may also stop between the values, which are then all numbers."""
+
+    def __post_init__(self) -> None:
+        name = f"slider {self.label!r}"
+        if isinstance(self.values, str):
+            raise InvalidInputError(name, expected="a sequence of values", got=self.values)
+        values = [v.item() if isinstance(v, np.generic) else v for v in self.values]
+        object.__setattr__(self, "values", tuple(values))
+        if len(values) < 2:
+            raise InvalidInputError(name, expected="at least two values", got=values)
+        allowed = Real if self.continuous else (str, Real)
+        for value in values:
+            if not isinstance(value, allowed) or (
+                isinstance(value, Real) and not np.isfinite(value)
+            ):
+                expected = "finite numbers" if self.continuous else "finite numbers or strings"
+                raise InvalidInputError(name, expected=expected, got=value)
+        if len(set(values)) < len(values):
+            raise InvalidInputError(name, expected="values that differ", got=values)
+        if self.default is not None and not any(_same(self.default, v) for v in values):
+            raise InvalidInputError(name, expected=f"a default among {values}", got=self.default)
+
+    @property
+    def start(self) -> int:
+        """Index of the value that is shown first."""
+        if self.default is None:
+            return 0
+        return next(i for i, value in enumerate(self.values) if _same(self.default, value))
+
+    def written(self, value: Value) -> str:
+        """Return a value with its unit, as the reader sees it."""
+        text = value if isinstance(value, str) else f"{value:.6g}"
+        return f"{text} {self.unit}".strip()
+
+    def finer(self, times: int = 10) -> "Slider":
+        """Return a slider with ``times`` as many steps, if this one is continuous.
+
+        >>> slider(0, 1, 2, label="Strain").finer(4).values
+        (0.0, 0.25, 0.5, 0.75, 1.0)
+        """
+        if not self.continuous:
+            return self
+        count = len(self.values)
+        at = np.linspace(0, count - 1, (count - 1) * times + 1)
+        between = np.interp(at, np.arange(count), np.asarray(self.values, dtype=float))
+        values = [_rounded(value) for value in between]
+        values[::times] = [float(value) for value in self.values]
+        return Slider(values, self.label, self.unit, self.values[self.start], continuous=True)
+
+
+def slider(
+    low: float, high: float, steps: int, *, label: str, unit: str = "", default: float | None = None
+) -> Slider:
+    """Return a slider over evenly spaced numbers, which a live page divides more finely.
+
+    Parameters
+    ----------
+    low, high
+        The extremes; low < high.
+    steps
+        How many values there are, extremes included: 2 to 125. Each is a frame in the built page.
+    label
+        What is varied, as the reader is told.
+    unit
+        Written behind the number.
+    default
+        The value shown first, one of the steps; without it, ``low``.
+
+    Raises
+    ------
+    InvalidInputError
+        If an argument is outside its range.
+
+    Examples
+    --------
+    >>> slider(0, 60, 4, label="Pressure", unit="kPa", default=20).values
+    (0.0, 20.0, 40.0, 60.0)
+    """
+    name = f"slider {label!r}"
+    if not (math.isfinite(low) and math.isfinite(high) and low < high):
+        raise InvalidInputError(name, expected="finite low < high", got=(low, high))
+    if not 2 <= steps <= MAX_FRAMES:
+        raise InvalidInputError(name, expected=f"2 to {MAX_FRAMES} steps", got=steps)
+    values = [_rounded(value) for value in np.linspace(low, high, steps)]
+    return Slider(values, label, unit, default, continuous=True)

@@ -1,0 +1,65 @@
+"""Array types of the material laws, and the checks that the laws share."""
+
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from softgrip.errors import InvalidInputError
+
+Floats = NDArray[np.float64]
+Value = TypeVar("Value", float, Floats)
+"""A float or an array: a law returns what it was given."""
+
+
+def read_only(values: ArrayLike) -> Floats:
+    """Copy values into a float array that cannot be written to."""
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
+
+
+def check_positive(**values: float) -> None:
+    """Raise InvalidInputError for the first value that is not finite and above zero."""
+    for name, value in values.items():
+        if not (np.isfinite(value) and value > 0):
+            raise InvalidInputError(name, expected="a finite number > 0", got=value)
+
+
+def tensile_curve(strain: ArrayLike, stress: ArrayLike, *, at_least: int) -> tuple[Floats, Floats]:
+    """Check a measured curve of a pull test and return it as two float arrays.
+
+    Parameters
+    ----------
+    strain
+        Engineering strain, shape (N,), finite, >= 0, not all equal.
+    stress
+        Engineering stress, shape (N,), Pa, finite, at least one value above zero.
+    at_least
+        Smallest N that the caller can use.
+
+    Raises
+    ------
+    InvalidInputError
+        If one of these does not hold.
+    """
+    e, s = np.asarray(strain, dtype=np.float64), np.asarray(stress, dtype=np.float64)
+    if e.ndim != 1 or e.shape != s.shape or e.size < at_least:
+        raise InvalidInputError(
+            "strain, stress",
+            expected=f"two arrays of one shape (N,) with N >= {at_least}",
+            got=(e.shape, s.shape),
+        )
+    if not (np.isfinite(e).all() and np.isfinite(s).all()):
+        raise InvalidInputError("strain, stress", expected="finite numbers", got="NaN or infinity")
+    if e.min() < 0 or np.ptp(e) == 0:
+        raise InvalidInputError(
+            "strain",
+            expected="values >= 0 that are not all equal",
+            got=f"values from {e.min():g} to {e.max():g}",
+        )
+    if s.max() <= 0:
+        raise InvalidInputError(
+            "stress", expected="at least one value > 0", got=f"a largest value of {s.max():g}"
+        )
+    return e, s

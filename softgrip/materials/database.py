@@ -1,0 +1,135 @@
+"""Where the public tensile tests are read from: a folder of the reader's, or the network.
+
+The Soft Robotics Materials Database is under the Open Database License 1.0; its files are not
+part of this package.
+"""
+
+import hashlib
+import os
+from functools import cache
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote
+
+import pooch
+
+from softgrip.errors import DataFileError, DataUnavailableError, UnknownNameError
+
+FOLDER_VARIABLE = "SOFTGRIP_MATERIALS_DIR"
+"""Environment variable that names a folder of the files; unset or empty for the network."""
+URL = (
+    "https://raw.githubusercontent.com/LucMarechal/Soft-Robotics-Materials-Database/"
+    "8ff66c3bdc17bd226eabe83b778e13ea1e2ef8ce/Tensile-Tests-Data/"
+)
+SHA256 = {
+    "Dragon Skin 10 MEDIUM": "01cbda9d2aabe7bd32aa16f0464ece700ab5872a8e225948c9a3fa91f00cbbf2",
+    "Dragon Skin 20": "5921554fe92a14eeec8fb6236f869d77a05e1514880d558d5cebc913f8438b67",
+    "Dragon Skin 30": "ea9a0cc595c368327cb28716e6a69836d639b1e0b5e60f137ca1b826227a96f0",
+    "Dragon Skin FX Pro": "72da6e2360a9045acae68703dc4f5163a583641ecc0dc5b84ce0aba9af395f3f",
+    "Ecoflex 00-10": "02b828d0d611e99ebc0c52375f3a939efa9de8381f03591c39697b01a0f9228e",
+    "Ecoflex 00-30": "34c00bcc55c401e2c6da596222deed71a8a51ba0be590a5aebe32eac07a19b27",
+    "Ecoflex 00-50": "6e902c87b804fa690a71836e4dd308f4ea49fd58b783abc91a6dfe45f70befb9",
+    "Mold Star 16 FAST": "3fd58d5ebf34dca1882ba001b1d19e0a339cd82de561eb07b96ac16e96b38ef5",
+    "Mold Star 20T": "5f62f0f6db08c8e95a9850504a6f9f6e68ce8403123c6297261a9bfd09fe2836",
+    "SORTA-Clear 40": "b595d579e6f75632bb118d7517202b567d7269a16de9006babfa9751bd00c848",
+}
+"""Digest of each material's file, by the names of Table 5.1."""
+TIMEOUT = 5.0
+"""Seconds to wait for the network: pages are built without it too."""
+
+_HOW_TO_GET_IT = (
+    f"Either let this computer reach {URL} once (the files are then kept in its cache), or put "
+    f"the unchanged files in a folder and name it in the environment variable {FOLDER_VARIABLE}."
+)
+
+
+def file_name(name: str) -> str:
+    """Return the database's file name of a material.
+
+    Raises
+    ------
+    UnknownNameError
+        If the name is not one of Table 5.1.
+
+    Examples
+    --------
+    >>> file_name("SORTA-Clear 40")
+    'SortaClear 40.csv'
+    """
+    if name not in SHA256:
+        raise UnknownNameError("material", name, list(SHA256))
+    return f"{name.replace('SORTA-Clear', 'SortaClear')}.csv"
+
+
+def locate(name: str) -> Path:
+    """Return the path of a material's file, fetched if need be, with its digest checked.
+
+    Raises
+    ------
+    UnknownNameError
+        If the name is not one of Table 5.1.
+    DataUnavailableError
+        If the named folder or its file is missing, or the network did not give the file.
+    DataFileError
+        If the folder's file is not, byte by byte, the published one.
+    """
+    file = file_name(name)
+    folder = os.environ.get(FOLDER_VARIABLE)
+    return _from_folder(Path(folder), file, SHA256[name]) if folder else _from_network(file)
+
+
+def available() -> bool:
+    """Tell whether all files can be read; without network it is tried once a session.
+
+    Raises
+    ------
+    DataUnavailableError, DataFileError
+        If a folder is named and is not in order: a wrong setting should not pass for no data.
+    """
+    if os.environ.get(FOLDER_VARIABLE):
+        return all(locate(name) for name in SHA256)
+    return _network_gives_all()
+
+
+def _from_folder(folder: Path, file: str, sha256: str) -> Path:
+    path = folder / file
+    if not path.is_file():
+        missing = f"has no file {file!r}" if folder.is_dir() else "is not a folder"
+        raise DataUnavailableError(f"{FOLDER_VARIABLE} names {folder}, which {missing}.")
+    digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    if digest != sha256:
+        raise DataFileError(
+            path,
+            expected=f"the published bytes, SHA-256 {sha256[:12]} (line ends count)",
+            got=f"a changed file, SHA-256 {digest[:12]}",
+        )
+    return path
+
+
+def _from_network(file: str) -> Path:
+    download = pooch.HTTPDownloader(timeout=TIMEOUT)
+    try:
+        return Path(_store().fetch(file, downloader=download))
+    except (OSError, ValueError) as error:
+        # OSError: no network or no cache folder; ValueError: other bytes than published.
+        raise DataUnavailableError(f"{file}: not fetched ({error}). {_HOW_TO_GET_IT}") from error
+
+
+@cache
+def _network_gives_all() -> bool:
+    try:
+        return all(_from_network(file_name(name)) for name in SHA256)
+    except DataUnavailableError:
+        return False
+
+
+@cache
+def _store() -> Any:
+    pooch.get_logger().setLevel("WARNING")  # a page must not differ by whether it had to fetch
+    files = {file_name(name): sha256 for name, sha256 in SHA256.items()}
+    return pooch.create(
+        path=pooch.os_cache("softgrip"),
+        base_url=URL,
+        registry={file: f"sha256:{sha256}" for file, sha256 in files.items()},
+        urls={file: URL + quote(file) for file in files},
+    )

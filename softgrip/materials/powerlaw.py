@@ -1,0 +1,128 @@
+"""The fractional power from three properties of a material, Eq. (5.7) and (5.8)."""
+
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import ArrayLike
+from sklearn.base import BaseEstimator, RegressorMixin
+from sklearn.utils.validation import check_is_fitted, validate_data
+
+from softgrip.errors import InvalidInputError
+from softgrip.materials.arrays import Floats
+from softgrip.materials.least_squares import normal_equations
+from softgrip.units import MPa
+
+EXPONENTS = (1.0, 0.5, 0.5)
+"""Powers of E, MV and TS in Eq. (5.7)."""
+SCALES = (1 * MPa, 50.0, 10 * MPa)
+"""Units of E [Pa], MV [Pa s] and TS [Pa] in Eq. (5.7); they change coefficients only."""
+
+
+def predictors(E: ArrayLike, MV: ArrayLike, TS: ArrayLike) -> Floats:
+    """Return the predictors of Eq. (5.7): E, the root of MV and the root of TS, made dimensionless.
+
+    Parameters
+    ----------
+    E
+        Young's modulus, Pa, >= 0, shape (m,) or a float.
+    MV
+        Mixed viscosity, Pa s, >= 0, same shape.
+    TS
+        Tensile strength, Pa, >= 0, same shape.
+
+    Returns
+    -------
+    ndarray
+        E / 1 MPa, (MV / 50 Pa s)**0.5 and (TS / 10 MPa)**0.5, shape (m, 3), or (3,) from floats.
+
+    Raises
+    ------
+    InvalidInputError
+        If a value is negative or not finite.
+
+    Examples
+    --------
+    >>> predictors(0.5e6, 12.5, 2.5e6).tolist()
+    [0.5, 0.5, 0.5]
+    """
+    return _powers(np.stack(np.broadcast_arrays(E, MV, TS), axis=-1), EXPONENTS, SCALES)
+
+
+@final
+class FractionalPowerRegressor(RegressorMixin, BaseEstimator):  # type: ignore[misc]  # untyped base
+    """Least squares of Eq. (5.8), as a scikit-learn regressor.
+
+    Parameters
+    ----------
+    exponents
+        Power of each column of X, or one for all. The default is Eq. (5.7).
+    scales
+        Unit of each column of X, or one for all, > 0. The default is Eq. (5.7) for columns in SI.
+    fit_intercept
+        Whether to add a constant, which Eq. (5.8) does not have.
+
+    Attributes
+    ----------
+    coef_ : ndarray of shape (p,)
+        The x of Eq. (5.6).
+    intercept_ : float
+        The constant, 0 when not fitted.
+
+    Notes
+    -----
+    `fit` and `predict` take X of shape (m, 3) with columns E [Pa], MV [Pa s], TS [Pa], all >= 0,
+    and raise InvalidInputError, a ValueError, for negative values. Eq. (5.8) is an empirical rule:
+    outside the materials that it was fitted to it has no ground.
+
+    Examples
+    --------
+    >>> X = [[1e6, 0, 0], [0, 50, 0], [0, 0, 10e6], [1e6, 50, 10e6]]
+    >>> FractionalPowerRegressor().fit(X, [1, 2, 3, 6]).coef_.round(9).tolist()
+    [1.0, 2.0, 3.0]
+    """
+
+    def __init__(
+        self,
+        exponents: float | tuple[float, ...] = EXPONENTS,
+        scales: float | tuple[float, ...] = SCALES,
+        fit_intercept: bool = False,
+    ) -> None:
+        self.exponents = exponents
+        self.scales = scales
+        self.fit_intercept = fit_intercept
+
+    def fit(self, X: ArrayLike, y: ArrayLike) -> "FractionalPowerRegressor":
+        """Fit the coefficients by Eq. (5.4); X of shape (m, 3), y of shape (m,)."""
+        X, y = validate_data(self, X, y, dtype=np.float64, y_numeric=True, ensure_min_samples=2)
+        columns = _powers(X, self.exponents, self.scales)
+        if self.fit_intercept:
+            columns = np.column_stack([columns, np.ones(len(columns))])
+        solution = normal_equations(columns, y)
+        self.coef_ = solution[: self.n_features_in_]
+        self.intercept_ = float(solution[-1]) if self.fit_intercept else 0.0
+        return self
+
+    def predict(self, X: ArrayLike) -> Floats:
+        """Predict the fractional power by Eq. (5.8); X of shape (m, 3), result of shape (m,)."""
+        check_is_fitted(self)
+        X = validate_data(self, X, dtype=np.float64, reset=False)
+        return _powers(X, self.exponents, self.scales) @ self.coef_ + self.intercept_
+
+    def __sklearn_tags__(self) -> Any:
+        tags = super().__sklearn_tags__()
+        tags.input_tags.positive_only = True
+        return tags
+
+
+def _powers(
+    X: ArrayLike, exponents: float | tuple[float, ...], scales: float | tuple[float, ...]
+) -> Floats:
+    X = np.asarray(X, dtype=np.float64)
+    if not np.all(np.isfinite(X) & (X >= 0)):
+        raise InvalidInputError("properties", expected="finite numbers >= 0", got=float(np.min(X)))
+    for name, value in (("exponents", exponents), ("scales", scales)):
+        if np.shape(value) not in ((), X.shape[-1:]):
+            raise InvalidInputError(
+                name, expected=f"one number, or {X.shape[-1]}: one for each column", got=value
+            )
+    return np.asarray((X / scales) ** exponents, dtype=np.float64)

@@ -1,0 +1,52 @@
+"""The built book, and a browser that has no network."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+
+
+def build(folder: Path, **environment: str) -> str:
+    """Build a book as ``make book`` does; return what was printed."""
+    command = [str(Path(sys.executable).with_name("jupyter-book")), "build", "-W", "-n"]
+    result = subprocess.run(
+        [*command, "--keep-going", str(folder)],
+        capture_output=True,
+        text=True,
+        env=os.environ | environment,
+    )
+    assert result.returncode == 0, result.stdout[-6000:] + result.stderr[-6000:]
+    return result.stdout
+
+
+@pytest.fixture(scope="session")
+def html(root: Path) -> Path:
+    """Return the folder of the built pages."""
+    build(root / "book")
+    return root / "book" / "_build" / "html"
+
+
+@pytest.fixture(scope="session")
+def browser():
+    if CHROMIUM is None:
+        pytest.skip("needs Chromium (Debian: apt-get install chromium)")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield browser
+        browser.close()

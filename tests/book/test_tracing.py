@@ -1,0 +1,68 @@
+"""A page's trace holds the files that it used, and tells when one of them has changed."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from softgrip.book import tracing
+
+AROUND = {"python": "3"}
+
+
+def run(code, trace, root):
+    code = f"from softgrip.book import tracing\ntracing.record({str(trace)!r})\n{code}"
+    subprocess.run([sys.executable, "-c", code], check=True, cwd=root, env=os.environ)
+    return set(json.loads(trace.read_text()))
+
+
+def test_modules_and_data_files_that_were_used_are_recorded(tmp_path, root):
+    files = run(
+        "from softgrip.materials import table; table.table_5_1()", tmp_path / "t.json", root
+    )
+    assert {"softgrip/materials/table.py", "data/materials/table_5_1.csv"} <= files
+    assert "softgrip/materials/tensile.py" not in files
+    assert not [name for name in files if name.startswith("softgrip/book")]
+
+
+def test_what_was_not_used_is_not_recorded(tmp_path, root):
+    assert run("import softgrip.units", tmp_path / "t.json", root) == {
+        "softgrip/__init__.py",
+        "softgrip/units.py",
+    }
+
+
+@pytest.fixture
+def trace(tmp_path, monkeypatch):
+    monkeypatch.setattr(tracing, "ROOT", tmp_path)
+    source = tmp_path / "softgrip" / "a.py"
+    source.parent.mkdir()
+    source.write_text("A = 1\n")
+    path = tmp_path / "page.json"
+    path.write_text(json.dumps({"softgrip/a.py": tracing.digest(source)}))
+    path.with_suffix(".context.json").write_text(json.dumps(AROUND))
+    return path
+
+
+def test_trace_holds_while_nothing_changes(trace):
+    assert tracing.is_current(trace, AROUND)
+
+
+def test_changed_file_makes_the_page_stale(trace, tmp_path):
+    (tmp_path / "softgrip" / "a.py").write_text("A = 2\n")
+    assert not tracing.is_current(trace, AROUND)
+
+
+def test_removed_file_makes_the_page_stale(trace, tmp_path):
+    (tmp_path / "softgrip" / "a.py").unlink()
+    assert not tracing.is_current(trace, AROUND)
+
+
+def test_other_surroundings_make_the_page_stale(trace):
+    assert not tracing.is_current(trace, AROUND | {"python": "4"})
+
+
+def test_page_without_a_trace_is_stale(tmp_path):
+    assert not tracing.is_current(tmp_path / "none.json", AROUND)

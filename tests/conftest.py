@@ -1,0 +1,26 @@
+"""What all tests share: where the public tensile tests lie, and the project's root."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+BESIDE = ROOT.parent / "shared" / "materials"
+
+if "SOFTGRIP_MATERIALS_DIR" not in os.environ and BESIDE.is_dir():
+    os.environ["SOFTGRIP_MATERIALS_DIR"] = str(BESIDE)
+
+
+@pytest.fixture(scope="session")
+def root() -> Path:
+    return ROOT
+
+
+@pytest.fixture(scope="session")
+def tensile_tests() -> None:
+    """Skip where the public tensile tests can neither be read nor fetched."""
+    from softgrip.materials import tensile
+
+    if not tensile.available():
+        pytest.skip("needs the public tensile tests: a network, or SOFTGRIP_MATERIALS_DIR")
