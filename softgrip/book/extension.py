@@ -10,6 +10,7 @@ from sphinx.application import Sphinx
 
 from softgrip.book import numbering, tracing, vendor
 
+
 def _build_folder(app: Sphinx) -> Path:
     return Path(app.outdir).parent
 

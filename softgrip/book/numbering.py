@@ -28,7 +28,7 @@ def number(label: str) -> tuple[int | str, ...] | None:
     return int(chapter), int(item) if item.isdigit() else item.upper()
 
 
-def assign(app: Sphinx, env: Any) -> list[str]:
+def assign(_app: Sphinx, env: Any) -> list[str]:
     """Replace Sphinx's counts by the numbers that the labels carry."""
     labels = {
         (doc, node_id): name for name, (doc, node_id) in env.domaindata["std"]["anonlabels"].items()

@@ -31,13 +31,15 @@ if os.environ.get({TRACE_VARIABLE!r}):
 
 def install_hook(ipython_folder: Path) -> None:
     """Make kernels started with IPYTHONDIR at this folder record what they read."""
-    startup = ipython_folder / "profile_default" / "startup" / "00-trace.py"
-    startup.parent.mkdir(parents=True, exist_ok=True)
-    startup.write_text(STARTUP)
+    profile = ipython_folder / "profile_default"
+    (profile / "startup").mkdir(parents=True, exist_ok=True)
+    (profile / "startup" / "00-trace.py").write_text(STARTUP)
+    # Each kernel would warn that it talks to its own machine over TCP.
+    (profile / "ipython_kernel_config.py").write_text("get_config().IPKernelApp.log_level = 40\n")
 
 
 def surroundings() -> dict[str, str]:
-    """What every page depends on beside its files: Python, the libraries, the public data."""
+    """Return what every page depends on beside its files: Python, libraries, the public data."""
     from softgrip.materials import tensile
 
     return {
@@ -79,9 +81,9 @@ def record(trace: str) -> None:
 
     def write() -> None:
         modules = (
-            os.path.realpath(module.__file__)
+            os.path.realpath(file)
             for module in list(sys.modules.values())
-            if getattr(module, "__file__", None)
+            if (file := getattr(module, "__file__", None)) is not None
         )
         files = sorted(_watched(opened) | _watched(modules))
         content = {str(file.relative_to(ROOT)): digest(file) for file in files}

@@ -50,7 +50,7 @@ def _image(frame: Frame, alt: str, sliders: Sequence[Slider], values: Sequence[V
     Width and height keep the frame's place, so that the page does not jump when it is exchanged.
     """
     state = (f"{s.label} {s.written(v)}" for s, v in zip(sliders, values, strict=True))
-    text = html.escape(f"{alt} ({'; '.join(state)})".strip())
+    text = html.escape("; ".join([*filter(None, [alt]), *state]))
     data = b64encode(frame.webp).decode()
     return (
         f'<img src="data:image/webp;base64,{data}" alt="{text}" decoding="sync" '
@@ -64,8 +64,9 @@ def _control(slider: Slider) -> widgets.SelectionSlider:
         options=[(slider.written(value), value) for value in slider.values],
         index=slider.start,
         description=slider.label,
+        tooltip=slider.label,  # without one the label's tooltip is the word "null"
         style={"description_width": "initial"},
-        layout={"flex": "1 1 16rem", "width": "auto", "max_width": "36rem", "min_width": "0"},
+        layout={"flex": "1 1 24rem", "width": "auto", "max_width": "36rem", "min_width": "0"},
     )
 
 
@@ -147,8 +148,8 @@ def explore(
     alt
         The picture in words, for those who do not see it; the sliders' values are added.
     **sliders
-        From a parameter of ``draw`` to a `Slider`, to what `slider` returns, or to the values
-        alone (numbers or strings).
+        From a parameter of ``draw`` (not named ``mode`` or ``alt``) to a `Slider`, to what
+        `slider` returns, or to the values alone (numbers or strings).
 
     Raises
     ------

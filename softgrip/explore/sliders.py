@@ -13,14 +13,20 @@ from softgrip.explore.frames import MAX_FRAMES
 Value = float | str
 
 
-def _same(one: Value, other: Value) -> bool:
-    if isinstance(one, str) or isinstance(other, str):
-        return one == other
-    return math.isclose(one, other, rel_tol=1e-9)
+def _find(wanted: Value, values: Sequence[Value]) -> int | None:
+    """Return the index of a value; a number may be off by rounding, as in ``pi / 2``."""
+    if isinstance(wanted, str):
+        return values.index(wanted) if wanted in values else None
+    numbers = [(abs(v - wanted), i) for i, v in enumerate(values) if not isinstance(v, str)]
+    off, nearest = min(numbers, default=(math.inf, 0))
+    return nearest if off <= 1e-9 * abs(wanted) else None
 
 
-def _rounded(value: float) -> float:
-    return float(f"{value:.12g}")  # 0.3, not 0.30000000000000004, where a figure prints it
+def _tidy(values: np.ndarray) -> list[float]:
+    """Round far below the step: a figure prints 0.3, not 0.30000000000000004."""
+    step = float(np.min(np.abs(np.diff(values))))
+    digits = 9 - math.floor(math.log10(step)) if step > 0 else 15
+    return [round(float(value), digits) for value in values]
 
 
 @dataclass(frozen=True)
@@ -50,24 +56,21 @@ class Slider:
         object.__setattr__(self, "values", tuple(values))
         if len(values) < 2:
             raise InvalidInputError(name, expected="at least two values", got=values)
-        allowed = Real if self.continuous else (str, Real)
         for value in values:
-            if not isinstance(value, allowed) or (
-                isinstance(value, Real) and not np.isfinite(value)
-            ):
-                expected = "finite numbers" if self.continuous else "finite numbers or strings"
+            if isinstance(value, str) and not self.continuous:
+                continue
+            if not (isinstance(value, Real) and math.isfinite(value)):
+                expected = "finite numbers" + ("" if self.continuous else " or strings")
                 raise InvalidInputError(name, expected=expected, got=value)
         if len(set(values)) < len(values):
             raise InvalidInputError(name, expected="values that differ", got=values)
-        if self.default is not None and not any(_same(self.default, v) for v in values):
+        if self.default is not None and _find(self.default, values) is None:
             raise InvalidInputError(name, expected=f"a default among {values}", got=self.default)
 
     @property
     def start(self) -> int:
         """Index of the value that is shown first."""
-        if self.default is None:
-            return 0
-        return next(i for i, value in enumerate(self.values) if _same(self.default, value))
+        return 0 if self.default is None else _find(self.default, self.values) or 0
 
     def written(self, value: Value) -> str:
         """Return a value with its unit, as the reader sees it."""
@@ -85,7 +88,7 @@ class Slider:
         count = len(self.values)
         at = np.linspace(0, count - 1, (count - 1) * times + 1)
         between = np.interp(at, np.arange(count), np.asarray(self.values, dtype=float))
-        values = [_rounded(value) for value in between]
+        values = _tidy(between)
         values[::times] = [float(value) for value in self.values]
         return Slider(values, self.label, self.unit, self.values[self.start], continuous=True)
 
@@ -123,5 +126,4 @@ def slider(
         raise InvalidInputError(name, expected="finite low < high", got=(low, high))
     if not 2 <= steps <= MAX_FRAMES:
         raise InvalidInputError(name, expected=f"2 to {MAX_FRAMES} steps", got=steps)
-    values = [_rounded(value) for value in np.linspace(low, high, steps)]
-    return Slider(values, label, unit, default, continuous=True)
+    return Slider(_tidy(np.linspace(low, high, steps)), label, unit, default, continuous=True)

@@ -158,7 +158,9 @@ class Shown:
         )
         provenance = f"\n\n::::{{container}} provenance\n{strip}\n::::\n"
         if item.kind == "table":
-            body = f":::::{{table}} {item.caption}\n:name: {item.label}\n\n{self._markdown()}\n:::::"
+            body = (
+                f":::::{{table}} {item.caption}\n:name: {item.label}\n\n{self._markdown()}\n:::::"
+            )
         else:
             body = (
                 f":::::{{figure}} /{FOLDER}/{item.name}.svg\n:name: {item.label}\n"
@@ -187,7 +189,8 @@ class Shown:
                 f'<img alt="{html.escape(item.alt)}" style="max-width: 100%; width: 640px" '
                 f'src="data:image/svg+xml;base64,{data}">'
             )
-        return f"{body}<p><b>{item.title}</b> {html.escape(item.caption)}</p><p><small>{strip}</small></p>"
+        caption = f"<p><b>{item.title}</b> {html.escape(item.caption)}</p>"
+        return f"{body}{caption}<p><small>{strip}</small></p>"
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
         if _in_static_book():

@@ -117,8 +117,8 @@ def claims(chapter: int | None = None) -> list[Claim]:
         path = data_file(f"claims/{name}").path
         with path.open("rb") as stream:
             rows = tomllib.load(stream)["claim"]
-        for row in (cell for row in rows for cell in _expand(row)):
-            claim = _claim(row, path)
+        for cell in (cell for row in rows for cell in _expand(row)):
+            claim = _claim(cell, path)
             if claim.id in found:
                 raise DataFileError(path, expected="ids that differ", got=f"{claim.id} twice")
             found[claim.id] = claim

@@ -26,6 +26,13 @@ def check_positive(**values: float) -> None:
             raise InvalidInputError(name, expected="a finite number > 0", got=value)
 
 
+def check_stretch(stretch: float | Floats) -> None:
+    """Raise InvalidInputError if a stretch is not above zero: no body has a length of zero."""
+    least = float(np.min(stretch))
+    if not least > 0:
+        raise InvalidInputError("stretch", expected="numbers > 0 (1 + strain)", got=least)
+
+
 def tensile_curve(strain: ArrayLike, stress: ArrayLike, *, at_least: int) -> tuple[Floats, Floats]:
     """Check a measured curve of a pull test and return it as two float arrays.
 

@@ -71,7 +71,8 @@ def stress(strain: Value, young_modulus: float, fractional_power: float) -> Valu
     (282843.0, -282843.0)
     """
     check_positive(young_modulus=young_modulus, fractional_power=fractional_power)
-    return young_modulus * np.sign(strain) * np.abs(strain) ** fractional_power
+    result: Value = young_modulus * np.sign(strain) * np.abs(strain) ** fractional_power
+    return result
 
 
 def fit(

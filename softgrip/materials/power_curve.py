@@ -1,10 +1,10 @@
 """Fit of a power curve y = c x**p, by least squares of y or of log y."""
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from softgrip.errors import InvalidInputError
 from softgrip.materials.arrays import Floats
+from softgrip.materials.search import least
 
 EXPONENT_RANGE = (0.1, 10.0)
 """Exponents that are searched; those of elastomers in tension lie near 1 to 3."""
@@ -45,13 +45,7 @@ def fit_power(x: Floats, y: Floats, *, free: bool) -> tuple[float, float]:
     def misfit(p: float) -> float:
         return float(np.sum((y - factor(p) * x**p) ** 2))
 
-    # The misfit can have a second, flat valley far from the best one: scan before refining.
-    scan = np.geomspace(*EXPONENT_RANGE, 60)
-    best = int(np.argmin([misfit(p) for p in scan]))
-    if best in (0, scan.size - 1):
-        raise _outside("a power at or beyond a limit")
-    bracket = (scan[best - 1], scan[best + 1])
-    p = float(minimize_scalar(misfit, bounds=bracket, method="bounded", options={"xatol": 1e-9}).x)
+    p = least(misfit, np.geomspace(*EXPONENT_RANGE, 60), name="powers")
     return factor(p), p
 
 
@@ -73,16 +67,22 @@ def fit_line(x: Floats, y: Floats, *, free: bool) -> tuple[float, float]:
     ------
     InvalidInputError
         If the best p is not inside `EXPONENT_RANGE`.
+
+    Examples
+    --------
+    >>> x = np.array([0.5, 1.0, 2.0])
+    >>> c, p = fit_line(x, 3 * x**2, free=True)
+    >>> round(c, 6), round(p, 6)
+    (3.0, 2.0)
     """
     u, v = np.log(x), np.log(y)
     u0, v0 = (float(u.mean()), float(v.mean())) if free else (0.0, 0.0)
     p = float((u - u0) @ (v - v0) / ((u - u0) @ (u - u0)))
-    if not EXPONENT_RANGE[0] < p < EXPONENT_RANGE[1]:
-        raise _outside(f"a power of {p:.3g}")
-    return float(np.exp(v0 - p * u0)), p
-
-
-def _outside(got: str) -> InvalidInputError:
     low, high = EXPONENT_RANGE
-    expected = f"values whose best power lies between {low} and {high}"
-    return InvalidInputError("x, y", expected=expected, got=got)
+    if not low < p < high:
+        raise InvalidInputError(
+            "strain, stress",
+            expected=f"a curve that is best fitted by powers from {low:g} to {high:g}",
+            got=f"one best fitted by {p:.3g}",
+        )
+    return float(np.exp(v0 - p * u0)), p

@@ -118,11 +118,17 @@ def _powers(
     X: ArrayLike, exponents: float | tuple[float, ...], scales: float | tuple[float, ...]
 ) -> Floats:
     X = np.asarray(X, dtype=np.float64)
-    if not np.all(np.isfinite(X) & (X >= 0)):
-        raise InvalidInputError("properties", expected="finite numbers >= 0", got=float(np.min(X)))
+    if not np.isfinite(X).all():
+        raise InvalidInputError("properties", expected="finite numbers", got="NaN or infinity")
+    if X.min() < 0:
+        # The words are those that scikit-learn asks of an estimator for positive data.
+        got = f"Negative values in data, {X.min():g} the least"
+        raise InvalidInputError("properties", expected="numbers >= 0", got=got)
     for name, value in (("exponents", exponents), ("scales", scales)):
         if np.shape(value) not in ((), X.shape[-1:]):
             raise InvalidInputError(
                 name, expected=f"one number, or {X.shape[-1]}: one for each column", got=value
             )
+    if not np.all(np.greater(scales, 0)):
+        raise InvalidInputError("scales", expected="numbers > 0", got=scales)
     return np.asarray((X / scales) ** exponents, dtype=np.float64)

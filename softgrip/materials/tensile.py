@@ -5,19 +5,20 @@ from pathlib import Path
 
 import numpy as np
 
-from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.materials import database
+from softgrip.errors import InvalidInputError
 from softgrip.materials.arrays import Floats, read_only
+from softgrip.materials.database import available, locate
+from softgrip.materials.tensile_file import read_rows
 from softgrip.units import MPa
 
-COLUMNS = (
-    "Time (s)",
-    "True Strain",
-    "True Stress (MPa)",
-    "Engineering Strain",
-    "Engineering Stress (MPa)",
-)
-FEWEST_ROWS = 10
+__all__ = [
+    "TensileTest",
+    "available",
+    "hundred_percent_modulus",
+    "load",
+    "parse",
+    "up_to_peak",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +42,13 @@ class TensileTest:
     true_strain: Floats
     true_stress: Floats
 
+    def __post_init__(self) -> None:
+        for name in ("strain", "stress", "true_strain", "true_stress"):
+            array = read_only(getattr(self, name))
+            if array.ndim != 1 or array.shape != np.shape(self.strain):
+                raise InvalidInputError(name, expected="the shape (N,) of strain", got=array.shape)
+            object.__setattr__(self, name, array)
+
 
 def load(name: str) -> TensileTest:
     """Read the tensile test of a material of Table 5.1.
@@ -50,46 +58,19 @@ def load(name: str) -> TensileTest:
     UnknownNameError, DataUnavailableError, DataFileError
         As `softgrip.materials.database.locate` and `parse` do.
     """
-    return replace(parse(database.locate(name)), name=name)
+    return replace(parse(locate(name)), name=name)
 
 
 def parse(path: Path) -> TensileTest:
-    """Read a file of the database: header rows, the row of `COLUMNS`, then rows of numbers.
-
-    Cells are separated by semicolons, decimals by points. The test takes the file's name.
+    """Read one file of the database; the test takes the file's name.
 
     Raises
     ------
     DataFileError
-        If the file does not hold this; names the line and what was expected there.
+        If the file is not as `softgrip.materials.tensile_file.read_rows` expects it.
     """
-    lines = _lines(path)
-    cells = [[cell.strip() for cell in line.split(";")] for line in lines]
-    start = next((i for i, row in enumerate(cells) if set(row) & set(COLUMNS)), None)
-    if start is None:
-        expected = f"a row of columns {';'.join(COLUMNS)}"
-        raise DataFileError(path, expected=expected, got="the end of the file", line=len(lines))
-    if tuple(cells[start]) != COLUMNS:
-        raise DataFileError(
-            path, expected=f"columns {';'.join(COLUMNS)}", got=lines[start], line=start + 1
-        )
-    rows = [_numbers(path, line, row) for line, row in enumerate(cells[start + 1 :], start + 2)]
-    if len(rows) < FEWEST_ROWS:
-        expected = f"at least {FEWEST_ROWS} rows of numbers"
-        raise DataFileError(path, expected=expected, got=f"{len(rows)}", line=len(lines))
-    _, true_strain, true_stress, strain, stress = np.array(rows).T
-    falls = np.flatnonzero(np.diff(strain) <= 0)
-    if falls.size:
-        line = start + 3 + int(falls[0])
-        expected = "an engineering strain above that of the row before"
-        raise DataFileError(path, expected=expected, got=lines[line - 1], line=line)
-    return TensileTest(
-        name=path.stem,
-        strain=read_only(strain),
-        stress=read_only(stress * MPa),
-        true_strain=read_only(true_strain),
-        true_stress=read_only(true_stress * MPa),
-    )
+    _, true_strain, true_stress, strain, stress = read_rows(path).T
+    return TensileTest(path.stem, strain, stress * MPa, true_strain, true_stress * MPa)
 
 
 def up_to_peak(test: TensileTest) -> TensileTest:
@@ -118,39 +99,3 @@ def hundred_percent_modulus(test: TensileTest) -> float:
             "test", expected="strains on both sides of 1", got=f"{low:g} to {high:g}"
         )
     return float(np.interp(1.0, test.strain, test.stress))
-
-
-def _lines(path: Path) -> list[str]:
-    raw = path.read_bytes()
-    if not raw.strip():
-        raise DataFileError(path, expected="a tensile test", got="an empty file", line=1)
-    if b"\0" in raw:
-        expected = "text with one byte a character (latin-1)"
-        raise DataFileError(path, expected=expected, got="zero bytes, as in UTF-16", line=1)
-    lines = raw.decode("latin-1").splitlines()
-    if not raw.endswith(b"\n"):
-        # A number cut short is still a number: only the missing line end shows the cut.
-        expected = "a line end after the last row"
-        raise DataFileError(path, expected=expected, got=f"{lines[-1]!r}", line=len(lines))
-    return lines
-
-
-def _numbers(path: Path, line: int, row: list[str]) -> list[float]:
-    if len(row) != len(COLUMNS):
-        expected = f"{len(COLUMNS)} cells separated by semicolons"
-        raise DataFileError(path, expected=expected, got=f"{len(row)}", line=line)
-    for column, cell in zip(COLUMNS, row, strict=True):
-        if "," in cell:
-            expected = f"{column!r} with a decimal point"
-            raise DataFileError(path, expected=expected, got=f"{cell!r}", line=line)
-        if not _is_finite(cell):
-            expected = f"a finite number for {column!r}"
-            raise DataFileError(path, expected=expected, got=f"{cell!r}", line=line)
-    return [float(cell) for cell in row]
-
-
-def _is_finite(cell: str) -> bool:
-    try:
-        return bool(np.isfinite(float(cell)))
-    except ValueError:
-        return False

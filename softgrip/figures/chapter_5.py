@@ -1,0 +1,349 @@
+"""Figures and tables of Chapter 5."""
+
+from collections.abc import Callable
+from math import inf
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.ticker import MultipleLocator
+from scipy.stats import spearmanr
+from sklearn.dummy import DummyRegressor
+
+from softgrip.figures.exhibit import figure, table
+from softgrip.figures.style import GREY, LUDWICK, MEASURED, OTHER, PRINTED, VERMILION, WIDTH, style
+from softgrip.ledger import chapter_5 as recomputed
+from softgrip.materials import ludwick, tensile, yeoh
+from softgrip.materials.facts import facts
+from softgrip.materials.fitting import (
+    LONGEST_STRAINS,
+    Fitting,
+    bootstrap_interval,
+    fractional_power,
+    kept,
+    ranking,
+)
+from softgrip.materials.leave_out import leave_k_out
+from softgrip.materials.new_material import predict_power
+from softgrip.materials.powerlaw import FractionalPowerRegressor
+from softgrip.materials.table import (
+    HELD_OUT,
+    Material,
+    fractional_powers,
+    properties,
+    table_5_1,
+)
+from softgrip.provenance import Provenance
+from softgrip.units import MPa
+
+TABLE = "materials/table_5_1.csv"
+FITS = "materials/ludwick_fits.csv"
+FACTS = "materials/tensile_facts.csv"
+BEST = Fitting()
+
+
+def _draw_curves(axes: Any, material: Material, power: float) -> None:
+    """Draw true stress over engineering strain: measured, Yeoh, Ludwick with a given n."""
+    known = facts()[material.name]
+    strain = np.linspace(0, known.peak_strain, 60)
+    if tensile.available():
+        test = tensile.up_to_peak(tensile.load(material.name))
+        true_stress = test.stress * (1 + test.strain)
+        axes.plot(test.strain, true_stress / MPa, color=MEASURED, label="measured", lw=3.2)
+    hyperelastic = (1 + strain) * yeoh.stress(1 + strain, known.yeoh)
+    axes.plot(strain, hyperelastic / MPa, color=OTHER, lw=1.2, label="Yeoh, fitted")
+    law = ludwick.stress(strain, material.young_modulus, power)
+    axes.plot(strain, law / MPa, color=LUDWICK, ls="--", label="Ludwick, printed n")
+
+
+@figure(
+    "5.1",
+    caption="True stress over engineering strain of the ten elastomers, up to the largest force: "
+    "measured {cite:p}`marechal2020`; Ludwick's law with the printed E and n; and, for comparison, "
+    "Yeoh's hyperelastic law fitted to the whole curve.",
+    alt="Ten small panels, one an elastomer. The measured true stress rises ever more steeply with "
+    "strain. Ludwick's law with the printed exponent follows it at middle strains, is too stiff "
+    "below, and leaves it above a strain of about six; Yeoh's law follows the whole curve.",
+    provenance=Provenance.PUBLIC,
+    data=(TABLE, FACTS),
+)
+def figure_5_1() -> Figure:
+    """Draw the stress-strain curves of the ten elastomers against Ludwick's law."""
+    drawn = Figure(figsize=(WIDTH, 8.2))
+    panels = drawn.subplots(5, 2)
+    for axes, material in zip(panels.flat, table_5_1().values(), strict=True):
+        _draw_curves(axes, material, material.fractional_power)
+        axes.set_title(material.name, fontsize=9.5)
+        axes.text(0.05, 0.84, f"n = {material.fractional_power:.3f}", transform=axes.transAxes)
+        axes.set_ylim(0, 1.1 * (1 + facts()[material.name].peak_strain)
+                      * facts()[material.name].peak_stress / MPa)  # fmt: skip
+        axes.set_ylabel("MPa")
+    for axes in panels[-1]:
+        axes.set_xlabel("engineering strain")
+    handles, labels = panels[0, 0].get_legend_handles_labels()
+    drawn.legend(handles, labels, loc="outside upper center", ncols=3, columnspacing=1.2)
+    return drawn
+
+
+@figure(
+    "5.2",
+    caption="The fractional power n of Table 5.1 over the three properties that are to predict it, "
+    "with Spearman's rank correlation. The two held-out materials are drawn hollow.",
+    alt="Three scatter plots of ten points. n rises with Young's modulus and, most clearly, with "
+    "tensile strength; with mixed viscosity it rises too, but loosely.",
+    provenance=Provenance.PRINTED,
+    data=(TABLE,),
+)
+def figure_5_2() -> Figure:
+    """Draw n over Young's modulus, mixed viscosity and tensile strength."""
+    drawn = Figure(figsize=(WIDTH, 3.0))
+    materials = list(table_5_1().values())
+    values, n = properties(materials), fractional_powers(materials)
+    held = np.array([m.name in HELD_OUT for m in materials])
+    labels = ("E (MPa)", "viscosity (Pa s)", "strength (MPa)")
+    for axes, x, scale, label in zip(
+        drawn.subplots(1, 3, sharey=True), values.T, (MPa, 1, MPa), labels, strict=True
+    ):
+        axes.scatter(x[~held] / scale, n[~held], color=LUDWICK, label="fitted to")
+        axes.scatter(
+            x[held] / scale, n[held], facecolors="white", edgecolors=LUDWICK, label="held out"
+        )
+        rank = spearmanr(x, n).statistic
+        axes.set(xlabel=label, ylabel="fractional power n", title=f"$\\rho$ = {rank:.2f}")
+        axes.set_xlim(0, 1.15 * x.max() / scale)
+        axes.label_outer()
+    return drawn
+
+
+@figure(
+    "5.A",
+    caption="The fractional power that a fit gives, over the strain up to which the curve is used "
+    "(true stress, E held, least squares of the stress). Dashed: the printed n, with the band of "
+    "values whose 1/n rounds to the same two decimals.",
+    alt="Ten small panels. In seven of them the fitted exponent meets the printed one where "
+    "strains up to about six are used; for Dragon Skin 20, Dragon Skin 30 and SORTA-Clear 40 only "
+    "where the fit stops at a strain of two or three.",
+    provenance=Provenance.PUBLIC,
+    data=(FITS,),
+)
+def figure_5_a() -> Figure:
+    """Draw n over the longest strain of the fit."""
+    drawn = Figure(figsize=(WIDTH, 8.2))
+    panels = drawn.subplots(5, 2, sharex=True)
+    for axes, material in zip(panels.flat, table_5_1().values(), strict=True):
+        peak = facts()[material.name].peak_strain
+        used = [min(limit, peak) for limit in LONGEST_STRAINS]
+        n = [kept()[material.name, Fitting(longest_strain=limit)] for limit in LONGEST_STRAINS]
+        axes.plot(used, n, "o-", color=LUDWICK, label="fitted")
+        printed = 1 / round(1 / material.fractional_power, 2)
+        m = 1 / printed
+        axes.axhspan(1 / (m + 0.005), 1 / (m - 0.005), color=PRINTED, alpha=0.25, lw=0)
+        axes.axhline(printed, color=PRINTED, ls="--", label="printed")
+        axes.set_title(material.name, fontsize=9.5)
+        axes.set_ylim(material.fractional_power - 0.7, material.fractional_power + 0.7)
+        axes.set_ylabel("n")
+    for axes in panels[-1]:
+        axes.set_xlabel("strain used up to")
+        axes.xaxis.set_major_locator(MultipleLocator(4))
+    handles, labels = panels[0, 0].get_legend_handles_labels()
+    drawn.legend(handles, labels, loc="outside upper center", ncols=2)
+    return drawn
+
+
+MODELS: dict[str, Callable[[], Any]] = {
+    "Eq. (5.8)": FractionalPowerRegressor,
+    "with a constant": lambda: FractionalPowerRegressor(fit_intercept=True),
+    "mean of the others": DummyRegressor,
+}
+
+
+@figure(
+    "5.B",
+    caption="Each of the ten materials predicted by Eq. (5.8) fitted to the other nine, and by the "
+    "mean of the nine: what a reader with a new material can expect.",
+    alt="Predicted over printed exponent. The points of Eq. (5.8) lie around the diagonal; Ecoflex "
+    "00-10 and 00-30 are predicted far too low. The means lie on a nearly flat line.",
+    provenance=Provenance.PRINTED,
+    data=(TABLE,),
+)
+def figure_5_b() -> Figure:
+    """Draw leave-one-out predictions over the printed values."""
+    drawn = Figure(figsize=(WIDTH, 4.0))
+    axes = drawn.subplots()
+    axes.plot([0.8, 2.8], [0.8, 2.8], color=GREY, lw=1, label="exact")
+    styles = (("Eq. (5.8)", LUDWICK, "o"), ("mean of the others", VERMILION, "_"))
+    for name, colour, marker in styles:
+        found = leave_k_out(1, model=MODELS[name]()).predictions
+        axes.scatter([p.printed for p in found], [p.predicted for p in found], color=colour,
+                     marker=marker, s=60, label=name)  # fmt: skip
+    worst = leave_k_out(1).worst
+    axes.annotate(worst.name, (worst.printed, worst.predicted), (6, -4),
+                  textcoords="offset points", fontsize=9.5)  # fmt: skip
+    axes.set(xlabel="printed n", ylabel="predicted n", xlim=(1.4, 2.65), ylim=(0.7, 2.75))
+    axes.legend(loc="lower right")
+    return drawn
+
+
+@table(
+    "5.1",
+    caption="The ten elastomers as printed (E, viscosity, strength), with the fractional power as "
+    "printed and as fitted to the public tensile tests with a 95 % interval (true stress, strains "
+    "up to 600 %, E held), and the stress at 100 % strain and the largest stress in these tests.",
+    provenance=Provenance.PUBLIC,
+    data=(TABLE, FITS, FACTS),
+)
+def table_5_1_beside_tests() -> pd.DataFrame:
+    """Tabulate the ten materials beside what their tensile tests give."""
+    rows = []
+    for material in table_5_1().values():
+        known = facts()[material.name]
+        interval = ""
+        if tensile.available():
+            low, high = bootstrap_interval(tensile.load(material.name), BEST)
+            interval = f" ({low:.2f} to {high:.2f})"
+        rows.append(
+            {
+                "material": material.name,
+                "n printed": f"{material.fractional_power:.3f}",
+                "n fitted": f"{fractional_power(material.name, BEST):.3f}{interval}",
+                "E (MPa)": f"{material.young_modulus / MPa:.2f}",
+                "at 100 % (MPa)": f"{known.hundred_percent_modulus / MPa:.3f}",
+                "viscosity (Pa s)": f"{material.mixed_viscosity:g}",
+                "strength (MPa)": f"{material.tensile_strength / MPa:.2f}",
+                "largest (MPa)": f"{known.peak_stress / MPa:.2f}",
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+@table(
+    "5.2",
+    caption="Fractional power of the two held-out materials: true and estimated, as printed and "
+    "recomputed. The recomputed true value is that of Table 5.1.",
+    provenance=Provenance.PRINTED,
+    data=(TABLE,),
+)
+def table_5_2() -> pd.DataFrame:
+    """Tabulate the estimates for the two held-out materials, printed and recomputed."""
+    return pd.DataFrame(
+        {
+            "material": name,
+            "true, printed": f"{true:.3f}",
+            "true, in Table 5.1": f"{recomputed.table_power(name):.3f}",
+            "estimated, printed": f"{estimated:.3f}",
+            "estimated, recomputed": f"{recomputed.estimated_power(name):.3f}",
+            "error, printed (%)": f"{100 * (estimated / true - 1):+.1f}",
+            "error, recomputed (%)": f"{100 * (_ratio(name) - 1):+.1f}",
+        }
+        for name, (true, estimated) in recomputed.TABLE_5_2.items()
+    )
+
+
+def _ratio(name: str) -> float:
+    return recomputed.estimated_power(name) / recomputed.table_power(name)
+
+
+@table(
+    "5.A",
+    caption="Ways to read n from a curve, held against the printed column: the five best of 96, "
+    "and the same choices as the best with one of them changed.",
+    provenance=Provenance.PUBLIC,
+    data=(FITS, TABLE),
+)
+def table_5_a() -> pd.DataFrame:
+    """Tabulate the best ways of fitting and their neighbours."""
+    scores = ranking()
+    neighbours = [
+        Fitting(stress="engineering"),
+        Fitting(loss="log"),
+        Fitting(longest_strain=inf),
+        Fitting(modulus="free"),
+    ]
+    chosen = scores[:5] + [s for s in scores if s.fitting in neighbours and s not in scores[:5]]
+    return pd.DataFrame(
+        {
+            "stress": s.fitting.stress,
+            "least squares of": s.fitting.loss,
+            "strains up to": "peak" if s.fitting.longest_strain == inf
+            else f"{s.fitting.longest_strain:.0%}",
+            "E": s.fitting.modulus,
+            "come out": s.come_out,
+            "within 2 %": s.within_2_percent,
+            "within 5 %": s.within_5_percent,
+            "median error": f"{s.median_error:.1%}" if s.median_error < inf else "no fit",
+        }
+        for s in chosen
+    )  # fmt: skip
+
+
+@table(
+    "5.B",
+    caption="Errors of n when materials are predicted that the fit has not seen: each one, and "
+    "each two, of the ten held out in turn.",
+    provenance=Provenance.PRINTED,
+    data=(TABLE,),
+)
+def table_5_b() -> pd.DataFrame:
+    """Tabulate leave-one-out and leave-two-out errors of three models."""
+    rows = []
+    for name, model in MODELS.items():
+        for k in (1, 2):
+            found = leave_k_out(k, model=model())
+            errors = [abs(p.error / p.printed) for p in found.predictions]
+            rows.append(
+                {
+                    "model": name,
+                    "held out": k,
+                    "RMS error of n": f"{found.rms_error:.3f}",
+                    "within 10 %": f"{np.mean(np.array(errors) < 0.1):.0%}",
+                    "worst": f"{max(errors):.0%} ({found.worst.name})",
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def draw_new_material(E: float, MV: float, TS: float) -> Figure:
+    """Draw the predicted n of a new material among the ten known ones.
+
+    Parameters
+    ----------
+    E, TS
+        Young's modulus (100 % modulus) and tensile strength, MPa.
+    MV
+        Mixed viscosity, Pa s.
+    """
+    found = predict_power(E * MPa, MV, TS * MPa)
+    power = found.power
+    with style():
+        drawn = Figure(figsize=(WIDTH, 3.0))
+        axes = drawn.subplots()
+        axes.axvspan(power.low, power.high, color=LUDWICK, alpha=0.15, lw=0)
+        axes.axvline(power.value, color=LUDWICK, lw=2.4)
+        ranked = sorted(table_5_1().values(), key=lambda m: m.fractional_power)
+        axes.scatter([m.fractional_power for m in ranked], range(10), color=MEASURED, zorder=3)
+        axes.set_yticks(range(10), [m.name for m in ranked], fontsize=8.5)
+        title = f"n = {power.value:.2f}, 95 %: {power.low:.2f} to {power.high:.2f}"
+        if found.extrapolates:
+            title += "  (extrapolated)"
+        axes.set(xlim=(0, 4), xlabel="fractional power n", title=title)
+    return drawn
+
+
+def draw_law(material: str, n: float) -> Figure:
+    """Draw Ludwick's law with a chosen n over the curve of a material."""
+    chosen = table_5_1()[material]
+    known = facts()[material]
+    with style():
+        drawn = Figure(figsize=(WIDTH, 3.2))
+        axes = drawn.subplots()
+        _draw_curves(axes, chosen, n)
+        axes.get_lines()[-1].set_label(f"Ludwick, n = {n:.2f}")
+        axes.set(
+            xlabel="engineering strain",
+            ylabel="true stress (MPa)",
+            title=f"{material}, printed n = {chosen.fractional_power:.3f}",
+            ylim=(0, 1.15 * (1 + known.peak_strain) * known.peak_stress / MPa),
+        )
+        axes.legend(loc="upper left")
+    return drawn

@@ -1,0 +1,198 @@
+"""How a fractional power is read from a tensile test: what the dissertation leaves open.
+
+"Curve fitting" names neither the stress (on the first or on the present area), nor how far the
+curve is used, nor what is made least, nor whether E is held at its table value. Each combination
+is a `Fitting`; what all of them give for the ten materials is kept in
+``data/materials/ludwick_fits.csv``, so that it is there without the measurements.
+"""
+
+import csv
+from dataclasses import astuple, dataclass, fields
+from functools import cache
+from itertools import product
+from math import inf, nan
+from types import MappingProxyType
+from typing import Literal, get_args
+
+import numpy as np
+
+from softgrip.errors import InvalidInputError
+from softgrip.materials import ludwick, tensile
+from softgrip.materials.arrays import Floats
+from softgrip.materials.table import table_5_1
+from softgrip.materials.tensile import TensileTest, up_to_peak
+from softgrip.provenance import data_file
+
+Stress = Literal["true", "engineering"]
+Modulus = Literal["held", "free"]
+FITS = "materials/ludwick_fits.csv"
+LONGEST_STRAINS = (2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, inf)
+
+
+@dataclass(frozen=True)
+class Fitting:
+    """One way to fit Ludwick's law, Eq. (5.2), to a tensile test.
+
+    Attributes
+    ----------
+    stress
+        "true" (force on the present area, of a solid that keeps its volume) or "engineering".
+    loss
+        As for `softgrip.materials.ludwick.fit`.
+    longest_strain
+        Engineering strain up to which the curve is used; never beyond its peak.
+    modulus
+        E "held" at the value of Table 5.1, or "free".
+    """
+
+    stress: Stress = "true"
+    loss: ludwick.Loss = "stress"
+    longest_strain: float = 6.0
+    modulus: Modulus = "held"
+
+
+def curve(test: TensileTest, fitting: Fitting) -> tuple[Floats, Floats]:
+    """Return the engineering strain and the stress [Pa] that a fitting uses, each of shape (N,)."""
+    pulled = up_to_peak(test)
+    used = (pulled.strain >= 0) & (pulled.strain <= fitting.longest_strain)
+    strain, stress = pulled.strain[used], pulled.stress[used]
+    return strain, stress * (1 + strain) if fitting.stress == "true" else stress
+
+
+def fit(test: TensileTest, fitting: Fitting) -> ludwick.LudwickFit:
+    """Fit the law to a test of one of the ten materials in the way that is named."""
+    held = table_5_1()[test.name].young_modulus if fitting.modulus == "held" else None
+    return ludwick.fit(*curve(test, fitting), young_modulus=held, loss=fitting.loss)
+
+
+def bootstrap_interval(
+    test: TensileTest,
+    fitting: Fitting,
+    *,
+    confidence: float = 0.95,
+    resamples: int = 200,
+    seed: int = 0,
+) -> tuple[float, float]:
+    """Return the percentile interval of n when the curve's rows are drawn again, in runs.
+
+    The law is not the curve, so its residuals are neither independent nor of mean zero: whole rows
+    are drawn, in runs of about the square root of their number. The interval speaks of this one
+    specimen and this way of fitting; it knows nothing of other specimens or other ways.
+
+    Raises
+    ------
+    InvalidInputError
+        If `confidence` is not between 0 and 1.
+    """
+    if not 0 < confidence < 1:
+        raise InvalidInputError("confidence", expected="a number in (0, 1)", got=confidence)
+    strain, stress = curve(test, fitting)
+    held = table_5_1()[test.name].young_modulus if fitting.modulus == "held" else None
+    length = max(2, round(strain.size**0.5))
+    runs = -(-strain.size // length)
+    random = np.random.default_rng(seed)
+    powers = []
+    for _ in range(resamples):
+        starts = random.integers(0, strain.size - length + 1, runs)
+        rows = (starts[:, None] + np.arange(length)).ravel()
+        again = ludwick.fit(strain[rows], stress[rows], young_modulus=held, loss=fitting.loss)
+        powers.append(again.fractional_power)
+    low, high = np.quantile(powers, [(1 - confidence) / 2, (1 + confidence) / 2])
+    return float(low), float(high)
+
+
+def grid() -> tuple[Fitting, ...]:
+    """Return every combination of the choices."""
+    return tuple(
+        Fitting(*choice)
+        for choice in product(
+            get_args(Stress), get_args(ludwick.Loss), LONGEST_STRAINS, get_args(Modulus)
+        )
+    )
+
+
+def measure() -> dict[tuple[str, Fitting], float]:
+    """Fit every material in every way; needs the tensile tests, takes some seconds.
+
+    NaN stands where the best power runs to a limit: that way does not describe that material.
+    """
+    tests = [tensile.load(name) for name in table_5_1()]
+    found = {}
+    for fitting, test in product(grid(), tests):
+        try:
+            found[test.name, fitting] = fit(test, fitting).fractional_power
+        except InvalidInputError:
+            found[test.name, fitting] = nan
+    return found
+
+
+@cache
+def kept() -> MappingProxyType[tuple[str, Fitting], float]:
+    """Read what `measure` gave: n by material and way of fitting."""
+    path = data_file(FITS).path
+    with path.open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
+    return MappingProxyType(
+        {
+            (
+                row["material"],
+                Fitting(row["stress"], row["loss"], float(row["longest_strain"]), row["modulus"]),  # type: ignore[arg-type]
+            ): float(row["fractional_power"])
+            for row in rows
+        }
+    )
+
+
+def write(found: dict[tuple[str, Fitting], float]) -> None:
+    """Keep what `measure` gave; ``python -m softgrip.materials`` calls it."""
+    path = data_file(FITS).path
+    header = "".join(line for line in path.open(encoding="utf-8") if line.startswith("#"))
+    columns = ",".join(["material", *(f.name for f in fields(Fitting)), "fractional_power"])
+    rows = (
+        f"{material},{','.join(map(str, astuple(fitting)))},{power:.5f}"
+        for (material, fitting), power in found.items()
+    )
+    path.write_text(f"{header}{columns}\n" + "\n".join(rows) + "\n", encoding="utf-8")
+
+
+def fractional_power(name: str, fitting: Fitting) -> float:
+    """Return n of a material: fitted now where its test can be had, else as it is kept."""
+    if tensile.available():
+        return fit(tensile.load(name), fitting).fractional_power
+    return kept()[name, fitting]
+
+
+@dataclass(frozen=True)
+class Score:
+    """How well a way of fitting gives the printed column of n.
+
+    The printed values are the reciprocals of two-decimal numbers, so m = 1/n is what was read
+    off: a value comes out when its m rounds to the printed one.
+    """
+
+    fitting: Fitting
+    come_out: int
+    within_2_percent: int
+    within_5_percent: int
+    median_error: float
+    """Of the relative errors of n."""
+
+
+def score(fitting: Fitting) -> Score:
+    """Hold a way of fitting against the ten printed values."""
+    found = kept()
+    pairs = [(found[name, fitting], m.fractional_power) for name, m in table_5_1().items()]
+    # Where a way gives no n at all, it is as wrong as can be.
+    errors = np.nan_to_num([abs(n / printed - 1) for n, printed in pairs], nan=inf)
+    return Score(
+        fitting,
+        come_out=sum(f"{1 / n:.2f}" == f"{1 / printed:.2f}" for n, printed in pairs),
+        within_2_percent=int(np.sum(errors <= 0.02)),
+        within_5_percent=int(np.sum(errors <= 0.05)),
+        median_error=float(np.median(errors)),
+    )
+
+
+def ranking() -> list[Score]:
+    """Return all scores, the best first: by values that come out, then by the median error."""
+    return sorted((score(f) for f in grid()), key=lambda s: (-s.come_out, s.median_error))

@@ -1,0 +1,72 @@
+"""Figures and tables: complete, deterministic, and with their numbers beside them."""
+
+import pandas as pd
+import pytest
+from matplotlib.figure import Figure
+
+from softgrip.errors import UnknownNameError
+from softgrip.figures.exhibit import exhibit, exhibits
+from softgrip.figures.save import numbers, save
+from softgrip.figures.style import style
+
+ALL = exhibits()
+
+
+@pytest.fixture(scope="module")
+def saved(tmp_path_factory):
+    """Save every exhibit twice."""
+    folders = [tmp_path_factory.mktemp("first"), tmp_path_factory.mktemp("second")]
+    made = {item.title: [save(item, folder)[0] for folder in folders] for item in ALL}
+    return folders, made
+
+
+@pytest.mark.parametrize("item", ALL, ids=lambda item: item.title)
+def test_files_are_the_same_to_the_bit(item, saved):
+    first, second = (sorted(folder.glob(f"{item.name}.*")) for folder in saved[0])
+    assert [f.name for f in first] == [f.name for f in second] != []
+    assert [f.read_bytes() for f in first] == [f.read_bytes() for f in second]
+
+
+@pytest.mark.parametrize("item", ALL, ids=lambda item: item.title)
+def test_csv_holds_finite_numbers(item, saved):
+    frame = pd.read_csv(saved[0][0] / f"{item.name}.csv")
+    assert len(frame) > 2
+    if item.kind == "figure":
+        assert frame[["x", "y"]].notna().all(axis=None)
+
+
+@pytest.mark.parametrize("item", ALL, ids=lambda item: item.title)
+def test_what_stands_beside_it_is_there(item, saved):
+    made = saved[1][item.title][0]
+    assert isinstance(made, Figure if item.kind == "figure" else pd.DataFrame)
+    assert item.caption.strip().endswith(".")
+    assert item.kind == "table" or len(item.alt) > 40
+
+
+def test_axes_of_every_figure_are_named(saved):
+    for item in ALL:
+        if item.kind == "figure":
+            for axes in saved[1][item.title][0].axes:
+                assert axes.get_xlabel() or axes.get_title(), item.title
+                assert axes.get_ylabel(), item.title
+
+
+def test_numbers_are_those_drawn():
+    with style():
+        figure = Figure()
+        axes = figure.subplots()
+        axes.plot([0, 1], [2, 3], label="a line")
+        axes.scatter([4], [5], label="points")
+        axes.bar([6], [7], label="bars")
+        axes.axhline(9.0)
+        axes.set(title="panel", xlabel="x (m)", ylabel="y (N)")
+        figure.draw_without_rendering()
+    frame = numbers(figure)
+    rows = {tuple(row) for row in frame[["series", "x", "y"]].itertuples(index=False)}
+    assert {("a line", 0, 2), ("a line", 1, 3), ("points", 4, 5), ("bars", 6, 7)} <= rows
+    assert set(frame["x_is"]) == {"x (m)"}
+
+
+def test_unknown_exhibit_lists_those_that_are():
+    with pytest.raises(UnknownNameError, match=r"Figure 5\.1"):
+        exhibit("Figure 5.99")

@@ -1,0 +1,58 @@
+"""Claim files: cells are expanded, and mistakes in them are named."""
+
+import pytest
+
+from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.ledger import claims as module
+from softgrip.ledger.claims import claims
+
+HEAD = "# provenance: printed\n# source: test\n"
+
+
+@pytest.fixture
+def write(tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "data_folder", lambda: tmp_path)
+    monkeypatch.setattr("softgrip.provenance.data_folder", lambda: tmp_path)
+    (tmp_path / "claims").mkdir()
+    return lambda text: (tmp_path / "claims/chapter_5.toml").write_text(HEAD + text)
+
+
+BASE = 'chapter = 5\nwhere = "Table 5.1"\nunit = "1"\nbasis = "citation"\n'
+
+
+def test_a_table_of_cells_becomes_one_claim_a_cell(write):
+    write(
+        f'[[claim]]\n{BASE}id = "n-{{key}}"\nwhat = "n of {{key}}"\n'
+        'arguments = {material = "{key}"}\n'
+        '[claim.printed]\n"Mold Star 20T" = "2.174"\n"Ecoflex 00-10" = "1.538"\n'
+    )
+    first, second = claims(5)
+    assert (first.id, first.what, first.printed) == (
+        "n-mold-star-20t",
+        "n of Mold Star 20T",
+        "2.174",
+    )
+    assert first.arguments == {"material": "Mold Star 20T"}
+    assert second.id == "n-ecoflex-00-10"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (f'[[claim]]\n{BASE}id = "a"\nwhat = ""\nprinted = "1"\nverdict = "close"', "verdict"),
+        (f'[[claim]]\n{BASE}id = "a"\nwhat = ""\nprinted = "1"\n' * 2, "a twice"),
+        (
+            f'[[claim]]\n{BASE}id = "a"\nwhat = ""\nprinted = "1"'.replace("citation", "guess"),
+            "'guess'",
+        ),
+    ],
+)
+def test_mistakes_are_named(write, text, message):
+    write(text)
+    with pytest.raises(DataFileError, match=message):
+        claims(5)
+
+
+def test_chapter_without_claims_is_named():
+    with pytest.raises(InvalidInputError, match="chapter: expected one with claims"):
+        claims(99)
