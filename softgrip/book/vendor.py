@@ -82,7 +82,7 @@ def _pack(package: Package, folder: Path) -> Path:
         raise UnreachableError(f"{spec}: {error}") from error
     archives = list(folder.glob("*.tgz"))
     if result.returncode or len(archives) != 1:
-        raise UnreachableError(f"{spec}: {result.stderr.strip()[-400:]}")
+        raise UnreachableError(f"{spec}: {str(result.stderr).strip()[-400:]}")
     return archives[0]
 
 

@@ -29,7 +29,7 @@ def _points(axes: Any) -> list[tuple[str, Any, Any]]:
         if line.get_transform().contains_branch(axes.transData):
             found.append((line.get_label(), *line.get_data()))
     for item in axes.collections:
-        if isinstance(item, PathCollection) and len(item.get_offsets()):
+        if isinstance(item, PathCollection):
             found.append((item.get_label(), *np.asarray(item.get_offsets()).T))
     for item in axes.containers:
         if isinstance(item, BarContainer):

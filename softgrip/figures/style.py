@@ -6,6 +6,7 @@ blindness; lines differ in dash too, so that they stay apart in grey.
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import matplotlib as mpl
 
@@ -27,7 +28,7 @@ OTHER = GREEN
 WIDTH = 4.8
 """Width of every figure in inches: scaled to a screen of 400 px, its text is still 9 px high."""
 
-SETTINGS = {
+SETTINGS: dict[Any, Any] = {
     "figure.figsize": (WIDTH, 3.4),
     "figure.dpi": 150,
     "figure.constrained_layout.use": True,

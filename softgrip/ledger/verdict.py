@@ -131,10 +131,10 @@ def judge(claim: Claim) -> Entry:
     function = _function(claim)
     stated = float(function(**claim.arguments)) if claim.stated else None
     assumed = float(function(**claim.arguments | claim.assume)) if claim.assume else None
-    band = tuple(
-        (value, float(function(**claim.arguments | claim.assume | {claim.band.argument: value})))
-        for value in (claim.band.values if claim.band else ())
-    )
+    band: tuple[tuple[Any, float], ...] = ()
+    if swept := claim.band:
+        given = claim.arguments | claim.assume
+        band = tuple((v, float(function(**given | {swept.argument: v}))) for v in swept.values)
     if claim.basis == "citation":
         verdict = Verdict.CITED
     elif claim.basis == "measurement":

@@ -55,13 +55,16 @@ def measure_facts(test: TensileTest) -> TensileFacts:
     pulled = tensile.up_to_peak(test)
     stretched = pulled.strain >= 0
     law = yeoh.fit(pulled.strain[stretched], pulled.stress[stretched])
+    first, second, third = law.coefficients
     return TensileFacts(
         test.name,
         tensile.hundred_percent_modulus(test),
-        float(pulled.stress[-1]),
-        float(pulled.strain[-1]),
-        *law.coefficients,
-        law.rms_stress,
+        peak_stress=float(pulled.stress[-1]),
+        peak_strain=float(pulled.strain[-1]),
+        yeoh_1=first,
+        yeoh_2=second,
+        yeoh_3=third,
+        yeoh_rms=law.rms_stress,
     )
 
 
@@ -73,7 +76,7 @@ def facts() -> Mapping[str, TensileFacts]:
     return MappingProxyType(
         {
             row["name"]: TensileFacts(
-                row["name"], *(float(row[f.name]) for f in fields(TensileFacts)[1:])
+                name=row["name"], **{f.name: float(row[f.name]) for f in fields(TensileFacts)[1:]}
             )
             for row in rows
         }
