@@ -10,6 +10,7 @@ import os
 from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -43,41 +44,54 @@ def _in_static_book() -> bool:
 
 
 def _html_table(frame: pd.DataFrame) -> str:
-    markup = str(frame.to_html(index=False, border=0, escape=False, classes="exhibit"))
+    shown = frame.map(_cell)
+    markup = str(shown.to_html(index=False, border=0, escape=False, classes="exhibit"))
     return markup.replace(' style="text-align: right;"', "")
+
+
+def _cell(value: object) -> str:
+    return chip(value, value) if isinstance(value, Verdict) else str(value)
 
 
 def _number(value: float | None) -> str:
     return "" if value is None else f"{value:.4g}"
 
 
-def verdict_table(entries: list[Entry]) -> str:
-    """Return entries as an HTML table: printed, recomputed, verdict, and what to know of it."""
-    rows = []
-    for entry in entries:
-        claim = entry.claim
-        sign = "" if claim.relation == "=" else f"{claim.relation} "
-        remarks = " ".join(filter(None, [claim.assumptions, claim.note]))
-        if entry.band:
-            values = [value for _, value in entry.band]
-            spread = f"{_number(min(values))} to {_number(max(values))}"
-            remarks += f" Band, {claim.band.what if claim.band else ''}: {spread}."
-        rows.append(
-            f'<tr id="claim-{claim.id}"><td>{html.escape(claim.where)}</td>'
-            f"<td>{html.escape(claim.what)}</td>"
-            f"<td class='number'>{html.escape(sign + claim.printed)}</td>"
-            f"<td class='number'>{_number(entry.recomputed)}</td>"
-            f"<td>{html.escape(claim.unit)}</td><td>{chip(entry.verdict, entry.verdict)}</td>"
-            f"<td>{html.escape(remarks.strip())}</td></tr>"
-        )
-    head = "".join(
-        f'<th scope="col">{name}</th>'
-        for name in ("where", "what", "printed", "recomputed", "unit", "verdict", "remarks")
-    )
+def _remarks(entry: Entry) -> str:
+    claim = entry.claim
+    parts = [claim.assumptions and f"Assumed: {claim.assumptions}", claim.note]
+    if claim.band:
+        values = [value for _, value in entry.band if value == value]
+        parts.append(f"{claim.band.what}: {_number(min(values))} to {_number(max(values))}.")
+    text = " ".join(filter(None, parts))
+    if not text:
+        return ""
+    return f"<details><summary>remarks</summary>{html.escape(text)}</details>"
+
+
+def _row(entry: Entry) -> str:
+    claim = entry.claim
+    sign = "" if claim.relation == "=" else f"{claim.relation} "
+    unit = "" if claim.unit == "1" else f" {claim.unit}"
     return (
-        '<div class="scrolling"><table class="ledger"><thead><tr>'
-        f"{head}</tr></thead><tbody>{''.join(rows)}</tbody></table></div>"
+        f'<tr id="claim-{claim.id}"><td>{html.escape(claim.what)}{_remarks(entry)}</td>'
+        f"<td class='number'>{html.escape(sign + claim.printed + unit)}</td>"
+        f"<td class='number'>{_number(entry.recomputed)}</td>"
+        f"<td>{chip(entry.verdict, entry.verdict)}</td></tr>"
     )
+
+
+def verdict_table(entries: list[Entry]) -> str:
+    """Return entries as an HTML table, place by place: printed, recomputed, verdict, remarks."""
+    head = "".join(
+        f'<th scope="col">{name}</th>' for name in ("what", "printed", "recomputed", "verdict")
+    )
+    bodies = "".join(
+        f'<tbody><tr><th colspan="4" scope="rowgroup">{html.escape(where)}</th></tr>'
+        f"{''.join(map(_row, found))}</tbody>"
+        for where, found in groupby(entries, key=lambda entry: entry.claim.where)
+    )
+    return f'<table class="ledger"><thead><tr>{head}</tr></thead>{bodies}</table>'
 
 
 @dataclass(frozen=True)
@@ -174,7 +188,7 @@ class Shown:
         lines = [
             "| " + " | ".join(map(str, frame.columns)) + " |",
             "|" + "|".join("---:" if right else ":---" for right in numeric) + "|",
-            *("| " + " | ".join(map(str, row)) + " |" for row in frame.itertuples(index=False)),
+            *("| " + " | ".join(map(_cell, row)) + " |" for row in frame.itertuples(index=False)),
         ]
         return "\n".join(lines)
 

@@ -1,0 +1,1 @@
+"""Controllers, and the sampled loop that they run in."""

@@ -1,0 +1,1 @@
+"""How the finger moves: linear and Ludwick models, identification, batches of runs."""

@@ -1,0 +1,1 @@
+"""The syringe pump: pressure, capacity, sizing (Chapter 4)."""

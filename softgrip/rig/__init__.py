@@ -1,0 +1,1 @@
+"""The rig: logs, and what makes them."""
