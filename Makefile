@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
 .DEFAULT_GOAL := help
-.PHONY: help book test lint lab figures ledger accept lock clean
+.PHONY: help book test lint lab figures ledger accept picture lock clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z][a-z%-]*:.*## ' $(MAKEFILE_LIST) | sort \
@@ -57,6 +57,9 @@ ledger: $(READY)  ## judge every printed number: book/_build/ledger.json
 
 accept: $(READY)  ## make today's verdicts the expected ones (look at the diff)
 	@$(BIN)/python -m softgrip.ledger --accept
+
+picture: book  ## take the picture of the README from the built book (needs Chromium)
+	@$(BIN)/python -m softgrip.book.picture
 
 lock: $(READY)  ## resolve the dependencies of pyproject.toml anew
 	@$(BIN)/uv pip compile pyproject.toml --all-extras --universal --generate-hashes \

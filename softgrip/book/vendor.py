@@ -1,7 +1,7 @@
 """The book's scripts, fetched at build time so that its pages need no network.
 
 MathJax and the widget manager come as npm packages, at pinned versions whose archives are checked
-against a known digest. They are laid under ``_vendor/_static/`` and never committed.
+against a known digest. They are laid under ``_vendor/`` and never committed.
 """
 
 import base64
@@ -25,7 +25,7 @@ class Package:
     version: str
     integrity: str
     files: dict[str, str]
-    """From a file or folder in the package to its place below ``_static/``."""
+    """From a file in the package, or a folder of fonts, to its place beside the pages."""
 
 
 PACKAGES = (
@@ -34,17 +34,17 @@ PACKAGES = (
         "3.2.2",
         "sha512-Bt+SSVU8eBG27zChVewOicYs7Xsdt40qm4+UpHyX7k0/O9NliPc+x77k1/FEsPsjKPZGJvtRZM1vO+geW0OhGw==",
         {
-            "es5/tex-mml-chtml.js": "mathjax/tex-mml-chtml.js",
-            "es5/output/chtml/fonts/woff-v2": "mathjax/output/chtml/fonts/woff-v2",
+            "es5/tex-mml-chtml.js": "_static/mathjax/tex-mml-chtml.js",
+            "es5/output/chtml/fonts/woff-v2": "_static/mathjax/output/chtml/fonts/woff-v2",
         },
     ),
     Package(
         "@jupyter-widgets/html-manager",
         "1.0.15",
         "sha512-5thBIV6ymNgmPVOHvzx+gGy8ZSKmSazhtGw4/c4xJDVzRhG9PTeQsRjF3FUTopvFi//SABeNz1yp47bCrJ3CQA==",
-        # The manager asks for its fonts below a folder of its own name.
+        # The manager asks for its fonts below a folder of its own name, beside the page.
         {
-            "dist/embed-amd.js": "widgets/embed-amd.js",
+            "dist/embed-amd.js": "_static/widgets/embed-amd.js",
             "dist": "@jupyter-widgets/html-manager/dist",
         },
     ),
@@ -52,7 +52,7 @@ PACKAGES = (
         "requirejs",
         "2.3.8",
         "sha512-7/cTSLOdYkNBNJcDMWf+luFvMriVm7eYxp4BcFCsAX0wF421Vyce5SXP17c+Jd5otXKGNehIonFlyQXSowL6Mw==",
-        {"require.js": "widgets/require.js"},
+        {"require.js": "_static/widgets/require.js"},
     ),
 )
 
@@ -93,7 +93,7 @@ def check(archive: Path, integrity: str) -> None:
         raise DataFileError(archive.name, expected=f"digest {integrity}", got=got)
 
 
-def _install(package: Package, static: Path) -> None:
+def _install(package: Package, place: Path) -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         archive = _pack(package, folder)
@@ -101,14 +101,14 @@ def _install(package: Package, static: Path) -> None:
         with tarfile.open(archive) as tar:
             tar.extractall(folder, filter="data")
         for source, target in package.files.items():
-            found, place = folder / "package" / source, static / target
-            place.parent.mkdir(parents=True, exist_ok=True)
+            found, put = folder / "package" / source, place / target
+            put.parent.mkdir(parents=True, exist_ok=True)
             if found.is_file():
-                shutil.copy(found, place)
+                shutil.copy(found, put)
             else:
+                put.mkdir(exist_ok=True)
                 for file in (f for f in found.iterdir() if f.suffix in FONTS):
-                    place.mkdir(parents=True, exist_ok=True)
-                    shutil.copy(file, place)
+                    shutil.copy(file, put)
 
 
 def ensure(folder: Path) -> bool:
@@ -117,7 +117,7 @@ def ensure(folder: Path) -> bool:
     Parameters
     ----------
     folder
-        Where ``_static/`` is made; emptied first if it holds other versions.
+        What is laid beside the pages; emptied first if it holds other versions.
 
     Returns
     -------
@@ -137,7 +137,7 @@ def ensure(folder: Path) -> bool:
     folder.mkdir(parents=True)
     try:
         for package in PACKAGES:
-            _install(package, folder / "_static")
+            _install(package, folder)
     except (UnreachableError, ImportError):
         shutil.rmtree(folder)
         folder.mkdir()

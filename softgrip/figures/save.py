@@ -48,6 +48,7 @@ def numbers(figure: Figure) -> pd.DataFrame:
         ``y_is``.
     """
     rows = []
+    labels = [axes.get_xlabel() for axes in figure.axes if axes.get_xlabel()]
     for index, axes in enumerate(figure.axes):
         panel = axes.get_title(loc="left") or f"panel {index + 1}"
         for count, (label, x, y) in enumerate(_points(axes)):
@@ -59,8 +60,9 @@ def numbers(figure: Figure) -> pd.DataFrame:
                         "series": series,
                         "x": np.asarray(x),
                         "y": np.asarray(y),
-                        "x_is": axes.get_xlabel(),
-                        "y_is": axes.get_ylabel(),
+                        # Panels above others leave their label to the lowest one.
+                        "x_is": axes.get_xlabel() or (labels or [""])[0],
+                        "y_is": axes.get_ylabel() or figure.axes[0].get_ylabel(),
                     }
                 )
             )

@@ -96,7 +96,7 @@ def _claim(row: dict[str, Any], path: object) -> Claim:
     return Claim(**row)
 
 
-def claims(chapter: int | None = None) -> list[Claim]:
+def read_claims(chapter: int | None = None) -> list[Claim]:
     """Read the claims of a chapter, or of all.
 
     Raises

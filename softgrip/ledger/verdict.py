@@ -7,7 +7,7 @@ from importlib import import_module
 from typing import Any
 
 from softgrip.errors import DataFileError
-from softgrip.ledger.claims import Claim, claims
+from softgrip.ledger.claims import Claim, read_claims
 
 CLOSE = 0.05
 """Largest relative difference that is still called close."""
@@ -147,4 +147,4 @@ def judge(claim: Claim) -> Entry:
 
 def ledger(chapter: int | None = None) -> list[Entry]:
     """Judge the claims of a chapter, or of all."""
-    return [judge(claim) for claim in claims(chapter)]
+    return [judge(claim) for claim in read_claims(chapter)]

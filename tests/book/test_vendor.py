@@ -29,7 +29,7 @@ def test_without_npm_the_folder_stays_empty_and_is_tried_again(tmp_path, monkeyp
 
 def test_what_is_there_is_not_fetched_again(tmp_path, monkeypatch):
     fetched = []
-    monkeypatch.setattr(vendor, "_install", lambda package, static: fetched.append(package.name))
+    monkeypatch.setattr(vendor, "_install", lambda package, place: fetched.append(package.name))
     assert vendor.ensure(tmp_path)
     assert vendor.ensure(tmp_path)
     assert fetched == [package.name for package in vendor.PACKAGES]

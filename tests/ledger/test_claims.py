@@ -4,7 +4,7 @@ import pytest
 
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.ledger import claims as module
-from softgrip.ledger.claims import claims
+from softgrip.ledger.claims import read_claims
 
 HEAD = "# provenance: printed\n# source: test\n"
 
@@ -26,7 +26,7 @@ def test_a_table_of_cells_becomes_one_claim_a_cell(write):
         'arguments = {material = "{key}"}\n'
         '[claim.printed]\n"Mold Star 20T" = "2.174"\n"Ecoflex 00-10" = "1.538"\n'
     )
-    first, second = claims(5)
+    first, second = read_claims(5)
     assert (first.id, first.what, first.printed) == (
         "n-mold-star-20t",
         "n of Mold Star 20T",
@@ -50,9 +50,9 @@ def test_a_table_of_cells_becomes_one_claim_a_cell(write):
 def test_mistakes_are_named(write, text, message):
     write(text)
     with pytest.raises(DataFileError, match=message):
-        claims(5)
+        read_claims(5)
 
 
 def test_chapter_without_claims_is_named():
     with pytest.raises(InvalidInputError, match="chapter: expected one with claims"):
-        claims(99)
+        read_claims(99)

@@ -1,0 +1,41 @@
+"""``python -m softgrip.book.picture``: the README's picture, taken from the built book."""
+
+import shutil
+from pathlib import Path
+
+BOOK = Path("book")
+PICTURE = BOOK / "images" / "page.png"
+TOP, BOTTOM = "#tab-5-2", "#tab-5-b"
+
+
+def main() -> None:
+    """Take the part of Chapter 5's page between two of its tables."""
+    from playwright.sync_api import sync_playwright
+
+    page_file = (BOOK / "_build" / "html" / "chapter-5.html").resolve()
+    PICTURE.parent.mkdir(exist_ok=True)
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"), args=["--no-sandbox", "--disable-gpu"]
+        )
+        page = browser.new_page(viewport={"width": 1280, "height": 900}, device_scale_factor=1.5)
+        page.goto(page_file.as_uri())
+        page.wait_for_load_state("networkidle")
+        page.locator(TOP).scroll_into_view_if_needed()
+        first, last = page.locator(TOP).bounding_box(), page.locator(BOTTOM).bounding_box()
+        if first is None or last is None:
+            raise SystemExit(f"{page_file} does not show {TOP} and {BOTTOM}")
+        offset = page.evaluate("window.scrollY")
+        clip = {
+            "x": first["x"] - 20,
+            "y": first["y"] + offset - 10,
+            "width": first["width"] + 40,
+            "height": last["y"] - first["y"],
+        }
+        page.screenshot(path=PICTURE, clip=clip, full_page=True)
+        browser.close()
+    print(PICTURE)
+
+
+if __name__ == "__main__":
+    main()

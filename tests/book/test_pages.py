@@ -1,0 +1,155 @@
+"""Every page of the built book, opened in a browser that has no network."""
+
+import re
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+import pytest
+from bs4 import BeautifulSoup
+
+pytestmark = pytest.mark.book
+
+# Said by the theme on every page that is read from a disk; both are harmless.
+KNOWN = ("Identifier 'THEBE_JS_URL' has already been declared", "Got invalid theme mode")
+
+
+class Visit:
+    """A page, opened, with all that it asked for and complained of."""
+
+    def __init__(self, browser, file: Path, width: int = 1280):
+        self.context = browser.new_context(viewport={"width": width, "height": 900}, offline=True)
+        self.page = self.context.new_page()
+        self.complaints: list[str] = []
+        self.requests: list[str] = []
+        self.page.on("console", self._console)
+        self.page.on("pageerror", lambda error: self._complain(str(error)))
+        self.page.on("request", lambda request: self.requests.append(request.url))
+        self.page.on("requestfailed", lambda request: self._complain(f"missing: {request.url}"))
+        self.page.goto(file.as_uri())
+        self.page.wait_for_load_state("networkidle")
+
+    def _console(self, message):
+        if message.type == "error":
+            self._complain(message.text)
+
+    def _complain(self, text: str):
+        if not any(known in text for known in KNOWN):
+            self.complaints.append(text)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.context.close()
+
+
+def pages(html: Path) -> list[Path]:
+    """Return the pages, without the theme's templates that lie among its scripts."""
+    return sorted(file for file in html.rglob("*.html") if "_static" not in file.parts)
+
+
+def chapters(html: Path) -> list[Path]:
+    """Return the pages that have sliders."""
+    return [file for file in html.glob("*.html") if "widget-view+json" in file.read_text()]
+
+
+def test_no_page_asks_the_network_or_complains(html, browser):
+    for file in pages(html):
+        with Visit(browser, file) as visit:
+            asked = {urlsplit(url).scheme for url in visit.requests}
+            assert asked <= {"file", "data", "blob"}, file
+            assert visit.complaints == [], file
+
+
+def test_equations_are_typeset(html, browser):
+    seen = 0
+    for file in html.glob("*.html"):
+        with Visit(browser, file) as visit:
+            visit.page.wait_for_function("!window.MathJax || !!MathJax.startup.promise")
+            visit.page.evaluate("window.MathJax ? MathJax.startup.promise : null")
+            sources = visit.page.locator(".math").count()
+            typeset = visit.page.locator(".math mjx-container").count()
+            assert typeset >= sources, file
+            assert visit.page.locator("mjx-merror").count() == 0, file
+            seen += sources
+    assert seen > 10
+
+
+def test_every_slider_moves_its_picture(html, browser):
+    moved = 0
+    for file in chapters(html):
+        with Visit(browser, file) as visit:
+            page = visit.page
+            page.wait_for_selector(".widget-html-content img")
+            for box in page.locator(".cell_output:has(.widget-hslider)").all():
+                for handle in box.locator(".noUi-handle").all():
+                    before = picture(box)
+                    handle.focus()
+                    last = handle.get_attribute("aria-valuenow") == handle.get_attribute(
+                        "aria-valuemax"
+                    )
+                    page.keyboard.press("ArrowLeft" if last else "ArrowRight")
+                    page.wait_for_timeout(200)
+                    assert picture(box) != before, (file, handle.get_attribute("aria-label"))
+                    assert handle.get_attribute("aria-label")
+                    moved += 1
+    assert moved >= 5
+
+
+def picture(box) -> str:
+    """Return what the one visible picture of an explorer shows."""
+    visible = [image for image in box.locator("img").all() if image.is_visible()]
+    assert len(visible) == 1
+    return visible[0].get_attribute("src") or ""
+
+
+@pytest.mark.parametrize("width", [1280, 400])
+def test_no_page_is_wider_than_the_screen(html, browser, width):
+    for file in html.glob("*.html"):
+        with Visit(browser, file, width) as visit:
+            wide = visit.page.evaluate("document.documentElement.scrollWidth")
+            assert wide <= width, file
+
+
+def test_links_lead_somewhere(html):
+    files = {file.resolve(): BeautifulSoup(file.read_text(), "html.parser") for file in pages(html)}
+    ids = {file: {tag["id"] for tag in soup.find_all(id=True)} for file, soup in files.items()}
+    for file, soup in files.items():
+        for link in soup.find_all("a", href=True):
+            target = urlsplit(link["href"])
+            if target.scheme or target.netloc:
+                continue
+            path = (file.parent / unquote(target.path)).resolve() if target.path else file
+            assert path.exists(), (file.name, link["href"])
+            if target.fragment and path in ids:
+                assert unquote(target.fragment) in ids[path], (file.name, link["href"])
+
+
+def test_pictures_have_words(html):
+    for file in pages(html):
+        for image in BeautifulSoup(file.read_text(), "html.parser").find_all("img"):
+            assert image.get("alt"), (file.name, image.get("src"))
+
+
+def test_exhibits_bear_their_own_numbers_and_provenance(html):
+    from softgrip.figures.exhibit import exhibits
+
+    for item in exhibits():
+        page = html / f"chapter-{item.number.split('.')[0]}.html"
+        soup = BeautifulSoup(page.read_text(), "html.parser")
+        place = soup.find(id=item.label)
+        assert place is not None, item.title
+        caption = place.find(class_="caption-number")
+        assert caption.text.strip() == item.title
+        strip = place.find_next(class_="provenance").text
+        for part in (f"make {item.name}", str(item.provenance), *(f.digest for f in item.data)):
+            assert part in strip, item.title
+
+
+def test_api_page_lists_every_module(html, root):
+    text = (html / "api.html").read_text()
+    for file in sorted((root / "softgrip").rglob("*.py")):
+        name = ".".join(file.relative_to(root).with_suffix("").parts)
+        private = file.stem.startswith("__") or ".book." in name
+        if not private and re.search(r"^(?:def|class) [a-z_A-Z]", file.read_text(), re.M):
+            assert name in text, f"{name} is missing from book/api.md"

@@ -1,0 +1,72 @@
+"""Break an equation, and the verdict that hangs on it turns: the ledger tests the package.
+
+Each case rewrites one expression in the source of one function, and puts the code of the broken
+function in the place of the sound one.
+"""
+
+import inspect
+import textwrap
+from collections.abc import Callable
+
+import pytest
+
+from softgrip.ledger import judge, read_claims
+from softgrip.ledger.__main__ import expected
+from softgrip.materials import fitting, least_squares, power_curve, powerlaw
+
+CASES: list[tuple[str, Callable, str, str, str]] = [
+    (
+        "Eq. (5.2): a straight line in place of the power",
+        power_curve.fit_power,
+        "x**p",
+        "(p * x)",
+        "table-5.1-n-mold-star-16-fast",
+    ),
+    (
+        "true stress: on the first area, not the present one",
+        fitting.curve,
+        "stress * (1 + strain)",
+        "stress * 1",
+        "table-5.1-n-dragon-skin-10-medium",
+    ),
+    (
+        "Eq. (5.4): damped normal equations",
+        least_squares.normal_equations,
+        "np.linalg.solve(A.T @ A",
+        "np.linalg.solve(A.T @ A + np.eye(p)",
+        "table-5.2-estimated-dragon-skin-20",
+    ),
+    (
+        "Eq. (5.7): properties without their powers",
+        powerlaw._powers,
+        "** exponents",
+        "** 1",
+        "table-5.2-estimated-dragon-skin-fx-pro",
+    ),
+    (
+        "Eq. (5.8): the factors in the wrong order",
+        powerlaw.FractionalPowerRegressor.predict,
+        "self.coef_ + ",
+        "self.coef_[::-1] + ",
+        "5.4-estimated-dragon-skin-20",
+    ),
+]
+
+
+def broken(function: Callable, sound: str, wrong: str):
+    """Return the code of a function with one expression rewritten."""
+    source = textwrap.dedent(inspect.getsource(function))
+    assert source.count(sound) >= 1, f"{sound!r} is not in {function.__qualname__}"
+    namespace: dict = {}
+    exec(source.replace(sound, wrong), function.__globals__ | {"__name__": "broken"}, namespace)
+    return namespace[function.__name__].__code__
+
+
+@pytest.mark.usefixtures("tensile_tests")
+@pytest.mark.parametrize(("what", "function", "sound", "wrong", "claim"), CASES)
+def test_broken_equation_turns_a_verdict(what, function, sound, wrong, claim, monkeypatch):
+    (claimed,) = [c for c in read_claims(5) if c.id == claim]
+    before = expected()[claim]
+    assert judge(claimed).verdict == before
+    monkeypatch.setattr(function, "__code__", broken(function, sound, wrong))
+    assert judge(claimed).verdict != before, what
