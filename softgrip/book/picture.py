@@ -18,9 +18,11 @@ def main() -> None:
         browser = playwright.chromium.launch(
             executable_path=shutil.which("chromium"), args=["--no-sandbox", "--disable-gpu"]
         )
-        page = browser.new_page(viewport={"width": 1280, "height": 900}, device_scale_factor=1.5)
+        page = browser.new_page(
+            viewport={"width": 1280, "height": 900}, device_scale_factor=1.5, offline=True
+        )
         page.goto(page_file.as_uri())
-        page.wait_for_load_state("networkidle")
+        page.wait_for_selector(".math mjx-container")
         page.locator(TOP).scroll_into_view_if_needed()
         first, last = page.locator(TOP).bounding_box(), page.locator(BOTTOM).bounding_box()
         if first is None or last is None:
