@@ -40,8 +40,13 @@ lint: $(READY)  ## check style, types and the direction of imports
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports --no-cache
 
-lab: $(READY)  ## open the book in JupyterLab (a chapter: right click, Open With, Notebook)
-	@$(BIN)/jupyter lab book
+# Without the setting a chapter, being Markdown, would open as text.
+LAB := $(VENV)/share/jupyter/lab/settings
+lab: $(READY)  ## open the chapters as notebooks in JupyterLab
+	@mkdir -p $(LAB)
+	@echo '{"@jupyterlab/docmanager-extension:plugin": {"defaultViewers": {"markdown": "Jupytext Notebook"}}}' \
+	  > $(LAB)/overrides.json
+	@$(BIN)/jupyter lab --notebook-dir=book
 
 figures: $(READY)  ## write every figure and table to book/_build/figures
 	@$(BIN)/python -m softgrip.figures

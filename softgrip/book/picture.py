@@ -28,13 +28,16 @@ def main() -> None:
         if first is None or last is None:
             raise SystemExit(f"{page_file} does not show {TOP} and {BOTTOM}")
         offset = page.evaluate("window.scrollY")
-        clip = {
-            "x": first["x"] - 20,
-            "y": first["y"] + offset - 10,
-            "width": first["width"] + 40,
-            "height": last["y"] - first["y"],
-        }
-        page.screenshot(path=PICTURE, clip=clip, full_page=True)
+        page.screenshot(
+            path=PICTURE,
+            full_page=True,
+            clip={
+                "x": first["x"] - 20,
+                "y": first["y"] + offset - 10,
+                "width": first["width"] + 40,
+                "height": last["y"] - first["y"],
+            },
+        )
         browser.close()
     print(PICTURE)
 

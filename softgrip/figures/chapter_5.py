@@ -1,6 +1,7 @@
 """Figures and tables of Chapter 5."""
 
 from collections.abc import Callable
+from functools import cache
 from math import inf
 from typing import Any
 
@@ -12,9 +13,20 @@ from scipy.stats import spearmanr
 from sklearn.dummy import DummyRegressor
 
 from softgrip.figures.exhibit import figure, table
-from softgrip.figures.style import GREY, LUDWICK, MEASURED, OTHER, PRINTED, VERMILION, WIDTH, style
+from softgrip.figures.style import (
+    GREY,
+    LUDWICK,
+    MEASURED,
+    OTHER,
+    PRINTED,
+    VERMILION,
+    WIDTH,
+    still,
+    style,
+)
 from softgrip.ledger import Entry, ledger
 from softgrip.materials import ludwick, tensile, yeoh
+from softgrip.materials.arrays import Floats
 from softgrip.materials.facts import facts
 from softgrip.materials.fitting import (
     LONGEST_STRAINS,
@@ -43,14 +55,21 @@ FACTS = "materials/tensile_facts.csv"
 BEST = Fitting()
 
 
+@cache
+def _measured(name: str) -> tuple[Floats, Floats] | None:
+    """Return strain and true stress up to the largest force, or None where no test is at hand."""
+    if not tensile.available():
+        return None
+    test = tensile.up_to_peak(tensile.load(name))
+    return test.strain, test.stress * (1 + test.strain)
+
+
 def _draw_curves(axes: Any, material: Material, power: float) -> None:
     """Draw true stress over engineering strain: measured, Yeoh, Ludwick with a given n."""
     known = facts()[material.name]
     strain = np.linspace(0, known.peak_strain, 60)
-    if tensile.available():
-        test = tensile.up_to_peak(tensile.load(material.name))
-        true_stress = test.stress * (1 + test.strain)
-        axes.plot(test.strain, true_stress / MPa, color=MEASURED, label="measured", lw=3.2)
+    if measured := _measured(material.name):
+        axes.plot(measured[0], measured[1] / MPa, color=MEASURED, label="measured", lw=3.2)
     hyperelastic = (1 + strain) * yeoh.stress(1 + strain, known.yeoh)
     axes.plot(strain, hyperelastic / MPa, color=OTHER, lw=1.2, label="Yeoh, fitted")
     law = ludwick.stress(strain, material.young_modulus, power)
@@ -317,8 +336,7 @@ def draw_new_material(E: float, MV: float, TS: float) -> Figure:
     found = predict_power(E * MPa, MV, TS * MPa)
     power = found.power
     with style():
-        drawn = Figure(figsize=(WIDTH, 3.0))
-        axes = drawn.subplots()
+        drawn, axes = still(3.0, left=0.34)
         axes.axvspan(power.low, power.high, color=LUDWICK, alpha=0.15, lw=0)
         axes.axvline(power.value, color=LUDWICK, lw=2.4)
         ranked = sorted(table_5_1().values(), key=lambda m: m.fractional_power)
@@ -336,8 +354,7 @@ def draw_law(material: str, n: float) -> Figure:
     chosen = table_5_1()[material]
     known = facts()[material]
     with style():
-        drawn = Figure(figsize=(WIDTH, 3.2))
-        axes = drawn.subplots()
+        drawn, axes = still(3.2)
         _draw_curves(axes, chosen, n)
         axes.get_lines()[-1].set_label(f"Ludwick, n = {n:.2f}")
         axes.set(

@@ -1,8 +1,9 @@
 """Exhibits as files that are the same, to the bit, from run to run; and their numbers as CSV."""
 
+from io import BytesIO
 from pathlib import Path
 from time import perf_counter
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -69,6 +70,14 @@ def numbers(figure: Figure) -> pd.DataFrame:
     return pd.concat(rows, ignore_index=True) if rows else pd.DataFrame()
 
 
+def svg(figure: Figure) -> bytes:
+    """Return a figure as SVG, without the date that would make each one another."""
+    file = BytesIO()
+    with style():
+        figure.savefig(file, format="svg", metadata={"Date": None, "Creator": None})
+    return file.getvalue()
+
+
 def save(exhibit: Exhibit, folder: Path) -> tuple[Any, float]:
     """Make an exhibit and write it: a figure as SVG and CSV, a table as CSV.
 
@@ -80,12 +89,9 @@ def save(exhibit: Exhibit, folder: Path) -> tuple[Any, float]:
     made, seconds = make(exhibit)
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / exhibit.name
-    if exhibit.kind == "table":
-        cast(pd.DataFrame, made).to_csv(path.with_suffix(".csv"), index=False, lineterminator="\n")
-    else:
-        with style():
-            made.savefig(path.with_suffix(".svg"), metadata={"Date": None, "Creator": None})
-        numbers(made).to_csv(
-            path.with_suffix(".csv"), index=False, float_format="%.8g", lineterminator="\n"
-        )
+    table = made
+    if exhibit.kind == "figure":
+        path.with_suffix(".svg").write_bytes(svg(made))
+        table = numbers(made)
+    table.to_csv(path.with_suffix(".csv"), index=False, float_format="%.8g", lineterminator="\n")
     return made, seconds

@@ -7,6 +7,7 @@ referable figure or table; in a notebook it is HTML with the same content.
 import base64
 import html
 import os
+import re
 from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
@@ -17,11 +18,15 @@ from typing import Any
 import pandas as pd
 
 from softgrip.figures.exhibit import Exhibit, exhibit
-from softgrip.figures.save import save
+from softgrip.figures.save import make, save, svg
 from softgrip.ledger import Entry, Verdict, ledger
 from softgrip.ledger.counts import counts_table
 
 FOLDER = Path("_build/figures")
+"""Where the book's build, which runs pages in the folder of the book, puts their pictures."""
+
+ROLE = re.compile(r"\{[a-z:]+\}`([^`]*)`")
+"""A MyST role, which is for the book only."""
 
 MARKS = {
     Verdict.REPRODUCED: "✓",
@@ -198,13 +203,13 @@ class Shown:
         if item.kind == "table":
             body = _html_table(self.made)
         else:
-            data = base64.b64encode((Path(FOLDER) / f"{item.name}.svg").read_bytes()).decode()
+            data = base64.b64encode(svg(self.made)).decode()
             body = (
                 f'<img alt="{html.escape(item.alt)}" style="max-width: 100%; width: 640px" '
                 f'src="data:image/svg+xml;base64,{data}">'
             )
-        caption = f"<p><b>{item.title}</b> {html.escape(item.caption)}</p>"
-        return f"{body}{caption}<p><small>{strip}</small></p>"
+        words = html.escape(ROLE.sub(r"\1", item.caption))
+        return f"{body}<p><b>{item.title}</b> {words}</p><p><small>{strip}</small></p>"
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
         if _in_static_book():
@@ -221,5 +226,4 @@ def show(title: str) -> Shown:
         Such as ``Figure 5.1``.
     """
     item = exhibit(title)
-    made, seconds = save(item, FOLDER)
-    return Shown(item, made, seconds)
+    return Shown(item, *(save(item, FOLDER) if _in_static_book() else make(item)))

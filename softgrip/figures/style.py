@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import matplotlib as mpl
+from matplotlib.figure import Figure
 
 BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
 YELLOW, BLUE, VERMILION, PURPLE = "#F0E442", "#0072B2", "#D55E00", "#CC79A7"
@@ -59,3 +60,23 @@ def style() -> Iterator[None]:
     """Draw in the style of the book, and leave the reader's own settings as they were."""
     with mpl.rc_context(SETTINGS):
         yield
+
+
+def still(height: float, *, left: float = 0.14) -> tuple[Figure, Any]:
+    """Return a figure and its axes for frames that are shown one after the other.
+
+    The axes keep their place, where a layout engine would move them from frame to frame; and a
+    frame is drawn in half the time.
+
+    Parameters
+    ----------
+    height
+        Inches.
+    left
+        Room for the labels on the left, as a part of the width.
+    """
+    figure = Figure(figsize=(WIDTH, height))
+    figure.set_layout_engine("none")
+    axes = figure.subplots()
+    figure.subplots_adjust(left=left, right=0.97, bottom=0.5 / height, top=1 - 0.3 / height)
+    return figure, axes
