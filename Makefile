@@ -28,7 +28,8 @@ $(READY): environment.lock pyproject.toml
 	@touch $@
 
 book: $(READY)  ## build the book: book/_build/html/index.html
-	@$(BIN)/jupyter-book build --quiet -W -n --keep-going book
+	@# Sphinx tells a warning once: what it has read is dropped, so that the next build tells it again.
+	@$(BIN)/jupyter-book build --quiet -W -n --keep-going book || { rm -rf book/_build/.doctrees; exit 1; }
 	@echo "The book: file://$(CURDIR)/book/_build/html/index.html"
 
 test: $(READY)  ## run the tests; those of the pages build the book and open it in Chromium

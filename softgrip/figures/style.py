@@ -75,8 +75,8 @@ def still(height: float, *, left: float = 0.14) -> tuple[Figure, Any]:
     left
         Room for the labels on the left, as a part of the width.
     """
-    figure = Figure(figsize=(WIDTH, height))
-    figure.set_layout_engine("none")
+    with mpl.rc_context({"figure.constrained_layout.use": False}):
+        figure = Figure(figsize=(WIDTH, height))
     axes = figure.subplots()
     figure.subplots_adjust(left=left, right=0.97, bottom=0.5 / height, top=1 - 0.3 / height)
     return figure, axes
