@@ -13,6 +13,8 @@
   }
   const all = () => document.querySelectorAll(".widget-hslider").forEach(name);
   document.addEventListener("DOMContentLoaded", function () {
+    // The widget manager calls MathJax 2, which is not there; no widget here holds an equation.
+    if (window.MathJax && !window.MathJax.Hub) window.MathJax.Hub = { Queue: function () {} };
     if (!document.querySelector('script[type="application/vnd.jupyter.widget-view+json"]')) return;
     new MutationObserver(all).observe(document.body, { childList: true, subtree: true });
     all();

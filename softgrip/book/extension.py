@@ -75,6 +75,15 @@ def announce(app: Sphinx, page: str, _source: list[str]) -> None:
     context.write_text(json.dumps(tracing.surroundings()))
 
 
+def remove_former_modules(app: Sphinx, _error: Exception | None) -> None:
+    """Remove source pages of modules that are no more: a build adds, but never takes away."""
+    pages = Path(app.outdir) / "_modules"
+    for page in (pages / "softgrip").rglob("*.html"):
+        source = tracing.ROOT / page.relative_to(pages).with_suffix("")
+        if not (source.is_dir() or source.with_suffix(".py").is_file()):
+            page.unlink()
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
     """Connect the parts to the stages of a build."""
     numbering.setup(app)
@@ -82,5 +91,6 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("builder-inited", prepare_kernels)
     app.connect("env-get-outdated", find_stale_pages)
     app.connect("source-read", announce)
+    app.connect("build-finished", remove_former_modules)
     app.add_css_file("softgrip.css")
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}

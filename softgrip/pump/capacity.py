@@ -1,0 +1,113 @@
+"""The capacity of pump and finger along a record, by the elastance filter."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from softgrip.materials.arrays import Floats, read_only
+from softgrip.pump.checks import record
+from softgrip.pump.elastance import ElastanceModel, elastance_filter, transitions
+
+
+@dataclass(frozen=True)
+class CapacityEstimate:
+    """What the filter holds after each of N measurements; the arrays cannot be written to.
+
+    Attributes
+    ----------
+    time
+        s, from 0, shape (N,).
+    state
+        Pressure, Pa, and elastance, Pa/m^3, shape (N, 2).
+    covariance
+        Of the state, shape (N, 2, 2).
+    innovation
+        Measured minus predicted pressure, Pa, shape (N,).
+    innovation_variance
+        What the filter expects of its square, Pa^2, shape (N,).
+    """
+
+    time: Floats
+    state: Floats
+    covariance: Floats
+    innovation: Floats
+    innovation_variance: Floats
+
+    @property
+    def pressure(self) -> Floats:
+        """Filtered pressure, Pa, shape (N,)."""
+        return self.state[:, 0]
+
+    @property
+    def elastance(self) -> Floats:
+        """S, Pa/m^3, shape (N,)."""
+        return self.state[:, 1]
+
+    @property
+    def capacity(self) -> Floats:
+        """C = 1/S, m^3/Pa, shape (N,); NaN where noise has pushed S to zero or below."""
+        S = self.elastance
+        result: Floats = np.divide(1.0, S, out=np.full(S.shape, np.nan), where=S > 0)
+        return result
+
+    @property
+    def capacity_std(self) -> Floats:
+        """Standard deviation of C to first order, std(S) C^2; good if std(S) is well below S."""
+        std: Floats = np.sqrt(self.covariance[:, 1, 1]) * self.capacity**2
+        return std
+
+    @property
+    def normalized_innovation_squared(self) -> Floats:
+        """Innovation squared over its variance, shape (N,): chi-square, 1 degree of freedom."""
+        result: Floats = self.innovation**2 / self.innovation_variance
+        return result
+
+    @property
+    def log_likelihood(self) -> float:
+        """Logarithm of the density of the measurements, 1/Pa each."""
+        terms = np.log(2 * np.pi * self.innovation_variance) + self.normalized_innovation_squared
+        return -0.5 * float(np.sum(terms))
+
+
+def estimate(
+    pressure: ArrayLike, flow: ArrayLike, angle: ArrayLike, model: ElastanceModel
+) -> CapacityEstimate:
+    """Run the elastance filter over a record.
+
+    The prior of the model holds at the first sample, before its measurement.
+
+    Parameters
+    ----------
+    pressure
+        Measured, Pa, shape (N,), N >= 2.
+    flow
+        Commanded, m^3/s, shape (N,); ``flow[k]`` holds from sample k to k + 1, so the last is not
+        used. Its sign is that of Eq. (4.2): above zero the plunger goes in.
+    angle
+        Measured bending angle, rad, shape (N,).
+    model
+        Time step, noise levels, prior and angle gain.
+
+    Raises
+    ------
+    InvalidInputError
+        If the shapes differ or a value is not finite.
+    """
+    measured, pushed, bent = record(at_least=2, pressure=pressure, flow=flow, angle=angle)
+    kalman = elastance_filter(model)
+    steps, turns = transitions(pushed, model.time_step), np.diff(bent)
+    N = measured.size
+    state, covariance = np.empty((N, 2)), np.empty((N, 2, 2))
+    innovation, variance = np.empty(N), np.empty(N)
+    for k in range(N):
+        if k:
+            # A column for the input: with a scalar, filterpy spreads the state into a matrix.
+            kalman.predict(u=turns[k - 1].reshape(1, 1), F=steps[k - 1])
+        kalman.update(measured[k])
+        state[k], covariance[k] = kalman.x[:, 0], kalman.P
+        innovation[k], variance[k] = kalman.y.item(), kalman.S.item()
+    time = np.arange(N) * model.time_step
+    return CapacityEstimate(
+        *(read_only(values) for values in (time, state, covariance, innovation, variance))
+    )

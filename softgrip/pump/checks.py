@@ -1,0 +1,51 @@
+"""Checks of input that the files of this folder share; they look at floats and arrays alike."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from softgrip.errors import InvalidInputError
+from softgrip.materials.arrays import Floats
+
+
+def check_above_zero(**values: ArrayLike) -> None:
+    """Raise InvalidInputError for the first value that is not all finite and above zero."""
+    for name, value in values.items():
+        array = np.asarray(value, dtype=np.float64)
+        if not (np.isfinite(array).all() and (array > 0).all()):
+            raise InvalidInputError(name, expected="finite numbers > 0", got=value)
+
+
+def check_not_negative(**values: ArrayLike) -> None:
+    """Raise InvalidInputError for the first value that is not all finite and >= 0."""
+    for name, value in values.items():
+        array = np.asarray(value, dtype=np.float64)
+        if not (np.isfinite(array).all() and (array >= 0).all()):
+            raise InvalidInputError(name, expected="finite numbers >= 0", got=value)
+
+
+def check_finite(**values: ArrayLike) -> None:
+    """Raise InvalidInputError for the first value that holds NaN or infinity."""
+    for name, value in values.items():
+        if not np.isfinite(np.asarray(value, dtype=np.float64)).all():
+            raise InvalidInputError(name, expected="finite numbers", got=value)
+
+
+def record(*, at_least: int, **columns: ArrayLike) -> tuple[Floats, ...]:
+    """Return the columns of a record as float arrays of one shape (N,), N >= `at_least`.
+
+    Raises
+    ------
+    InvalidInputError
+        If the shapes differ, a record is too short, or a value is not finite.
+    """
+    arrays = tuple(np.asarray(column, dtype=np.float64) for column in columns.values())
+    shape = arrays[0].shape
+    if len(shape) != 1 or shape[0] < at_least or any(a.shape != shape for a in arrays):
+        raise InvalidInputError(
+            ", ".join(columns),
+            expected=f"arrays of one shape (N,) with N >= {at_least}",
+            got=tuple(a.shape for a in arrays),
+        )
+    if not all(np.isfinite(a).all() for a in arrays):
+        raise InvalidInputError(", ".join(columns), expected="finite numbers", got="NaN or inf")
+    return arrays

@@ -1,0 +1,92 @@
+"""Whether measurements tell of the state: observability of a time-varying linear system."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from softgrip.errors import InvalidInputError
+from softgrip.materials.arrays import Floats
+from softgrip.pump.checks import check_above_zero
+
+
+def observability_matrix(transitions: ArrayLike, H: ArrayLike) -> Floats:
+    """Stack what each sample measures of the first state: ``H, H F_0, H F_1 F_0, ...``.
+
+    Parameters
+    ----------
+    transitions
+        F_k of ``x_{k+1} = F_k x_k``, shape (K, n, n).
+    H
+        Measurement matrix, shape (m, n).
+
+    Returns
+    -------
+    ndarray
+        Shape ((K + 1) m, n).
+
+    Raises
+    ------
+    InvalidInputError
+        If the shapes do not fit.
+
+    Examples
+    --------
+    >>> observability_matrix([[[1, 0.5], [0, 1]]], [[1, 0]]).tolist()
+    [[1.0, 0.0], [1.0, 0.5]]
+    """
+    F, rows = np.asarray(transitions, dtype=np.float64), np.asarray(H, dtype=np.float64)
+    if F.ndim != 3 or rows.ndim != 2 or F.shape[1:] != (rows.shape[1],) * 2:
+        raise InvalidInputError(
+            "transitions, H", expected="shapes (K, n, n) and (m, n)", got=(F.shape, rows.shape)
+        )
+    since_start = np.eye(rows.shape[1])
+    blocks = [rows]
+    for step in F:
+        since_start = step @ since_start
+        blocks.append(rows @ since_start)
+    return np.vstack(blocks)
+
+
+def observability_gramian(transitions: ArrayLike, H: ArrayLike) -> Floats:
+    """Return ``O^T O`` of the observability matrix O, shape (n, n).
+
+    A state x with ``x^T W x = 0`` leaves no trace in any measurement. Parameters and errors as for
+    `observability_matrix`.
+
+    Examples
+    --------
+    >>> observability_gramian([[[1, 0.5], [0, 1]]], [[1, 0]]).tolist()
+    [[2.0, 0.5], [0.5, 0.25]]
+    """
+    O = observability_matrix(transitions, H)  # noqa: E741 - its name in every textbook
+    return np.asarray(O.T @ O, dtype=np.float64)
+
+
+def observable_rank(transitions: ArrayLike, H: ArrayLike, scale: ArrayLike | None = None) -> int:
+    """Count the directions of the state that the measurements tell of.
+
+    Parameters
+    ----------
+    transitions, H
+        As for `observability_matrix`.
+    scale
+        Typical size of each state, shape (n,), > 0; None for ones. Without it, a state of large
+        numbers, whose column is small, can pass for rounding.
+
+    Raises
+    ------
+    InvalidInputError
+        If the shapes do not fit or a scale is not above zero.
+
+    Examples
+    --------
+    >>> observable_rank([[[1, 0.5], [0, 1]]], [[1, 0]])
+    2
+    """
+    columns = observability_matrix(transitions, H)
+    sizes = np.ones(columns.shape[1]) if scale is None else np.asarray(scale, dtype=np.float64)
+    if sizes.shape != columns.shape[1:]:
+        raise InvalidInputError(
+            "scale", expected=f"shape {columns.shape[1:]}", got=f"shape {sizes.shape}"
+        )
+    check_above_zero(scale=sizes)
+    return int(np.linalg.matrix_rank(columns * sizes))

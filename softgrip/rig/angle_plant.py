@@ -1,0 +1,26 @@
+"""The simulated rig as a sampled control loop sees it: a motor speed in, an angle out."""
+
+from numpy.typing import ArrayLike
+
+from softgrip.dynamics.integrate import Floats
+from softgrip.rig.plant import SimulatedRig
+
+
+class AnglePlant:
+    """A rig that tells its measured angle alone.
+
+    Parameters
+    ----------
+    rig
+        Which is driven; its truth stays at hand there.
+    """
+
+    def __init__(self, rig: SimulatedRig) -> None:
+        self.rig = rig
+
+    def advance(self, command: ArrayLike, duration: float) -> Floats:
+        """Hold a motor speed (rad/s) for a time (s), then return the measured angle, rad, (runs,).
+
+        A duration of 0 moves nothing and measures.
+        """
+        return self.rig.advance(command, duration).angle

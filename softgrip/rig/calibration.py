@@ -1,0 +1,95 @@
+"""The parameters of the simulated rig that follow from a few printed measurements.
+
+`softgrip.rig.calibration_table` lists them with what is assumed, and says how far off the rig is.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from softgrip.rig.parameters import FingerParameters, RigParameters, Spread
+from softgrip.units import DEG, MM, MPa
+
+FULL_ANGLE, FULL_PRESSURE = 206 * DEG, 0.15 * MPa  # Design 1 in Figure 3.10
+TORQUE_PER_PRESSURE = 0.359 / (0.25 * MPa)  # Figure 3.9, measured at a finger held straight
+FREQUENCY, DAMPING_RATIO, DAMPING_SPREAD = 2.86, 0.7, 0.1  # Table 3.3; Section 3.4
+FRACTIONAL_POWER = 2.5  # Table 5.1; Table 5.2 has 2.174 and 2.365 for the same rubber
+OPERATING_ANGLE = 60 * DEG  # of the first step test of Section 5.4
+SPREAD_ANGLE, SPREAD_RMS = 75 * DEG, 2.5 * DEG  # middles of 60 to 90 deg and 2 to 3 deg (5.4)
+REST_VOLUME = (24 - 2 * 1.5) * (30 - 2 * 1.5) * (94 / 2) * MM**3  # Table 3.1; half the length
+
+
+def memory_gain(
+    laplace: complex, memory: tuple[float, ...], memory_time: tuple[float, ...]
+) -> complex:
+    """Return by what the memory multiplies the settled stiffness at a complex frequency, rad/s.
+
+    >>> abs(memory_gain(0j, (0.1,), (2.0,))), round(abs(memory_gain(1e9j, (0.1,), (2.0,))), 6)
+    (1.0, 1.1)
+    """
+    branches = zip(memory, memory_time, strict=True)
+    return 1 + sum(
+        (part * laplace * time / (1 + laplace * time) for part, time in branches), start=0j
+    )
+
+
+def small_signal_stiffness(finger: FingerParameters, angle: float) -> float:
+    """Return the slope of the settled torque at an angle (rad), N m/rad."""
+    n = finger.fractional_power
+    return float(n * finger.stiffness * abs(angle) ** (n - 1))
+
+
+def small_signal_poles(finger: FingerParameters, angle: float) -> NDArray[np.complex128]:
+    """Return the poles from pressure to angle at an angle (rad), shape (2 + branches,), rad/s.
+
+    Without dry friction, which a linear model does not have. The pair that swings comes first.
+    """
+    k = small_signal_stiffness(finger, angle)
+    size = 2 + len(finger.memory)
+    matrix = np.zeros((size, size))
+    matrix[0, 1] = 1
+    matrix[1] = np.array([-k, -finger.damping, *[-1.0] * len(finger.memory)]) / finger.inertia
+    for row, (part, time) in enumerate(
+        zip(finger.memory, finger.memory_time, strict=True), start=2
+    ):
+        matrix[row, 1], matrix[row, row] = part * k, -1 / time
+    poles = np.linalg.eigvals(matrix).astype(np.complex128)
+    return poles[np.argsort(-np.abs(poles.imag), kind="stable")]
+
+
+def design_1(*, spread: bool = True) -> RigParameters:
+    """Return the rig with Design 1, made of Dragon Skin 20.
+
+    The stiffness follows from the angle at 0.15 MPa; inertia and damping follow, in closed form,
+    from the pole that the printed frequency and damping ratio name at `OPERATING_ANGLE`.
+
+    Parameters
+    ----------
+    spread
+        Whether runs differ.
+    """
+    n = FRACTIONAL_POWER
+    bare = FingerParameters(
+        stiffness=TORQUE_PER_PRESSURE * FULL_PRESSURE / FULL_ANGLE**n,
+        fractional_power=n,
+        inertia=1.0,
+        damping=1.0,
+        torque_per_pressure=TORQUE_PER_PRESSURE,
+        rest_volume=REST_VOLUME,
+    )
+    pole = FREQUENCY * complex(-DAMPING_RATIO, (1 - DAMPING_RATIO**2) ** 0.5)
+    pull = -small_signal_stiffness(bare, OPERATING_ANGLE) * memory_gain(
+        pole, bare.memory, bare.memory_time
+    )
+    square = pole**2
+    inertia, damping = np.linalg.solve(
+        [[square.real, pole.real], [square.imag, pole.imag]], [pull.real, pull.imag]
+    )
+    finger = FingerParameters(
+        bare.stiffness, n, float(inertia), float(damping), TORQUE_PER_PRESSURE, REST_VOLUME
+    )
+    between_runs = Spread(
+        stiffness=n * SPREAD_RMS / SPREAD_ANGLE,
+        damping=DAMPING_SPREAD / DAMPING_RATIO,
+        leakage=0.3,
+    )
+    return RigParameters(finger, spread=between_runs if spread else Spread())

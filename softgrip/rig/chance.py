@@ -1,0 +1,52 @@
+"""All chance in the simulated rig: a stream of numbers for each run, whatever the batch."""
+
+import numpy as np
+
+from softgrip.dynamics.integrate import Floats
+from softgrip.rig.parameters import Spread
+
+CHANNELS = 2
+"""Noisy channels: pressure and angle."""
+
+_BLOCK = 64
+
+
+def streams(seed: int, run: int) -> tuple[np.random.Generator, np.random.Generator]:
+    """Return the generators of one run: of what differs from run to run, and of its noise.
+
+    They depend on the seed and on the number of the run alone, so that a run is the same in any
+    batch. The kind of generator is named, since NumPy may change its default one.
+    """
+    own, noise = np.random.SeedSequence(seed, spawn_key=(run,)).spawn(2)
+    return np.random.Generator(np.random.PCG64(own)), np.random.Generator(np.random.PCG64(noise))
+
+
+class Chance:
+    """What chance gives to the runs `first` to `first + runs` of a seed.
+
+    Attributes
+    ----------
+    stiffness, damping, leakage
+        Multiples of the parameters, median 1, shape (runs,).
+    """
+
+    def __init__(self, spread: Spread, *, seed: int, first: int, runs: int) -> None:
+        pairs = [streams(seed, first + run) for run in range(runs)]
+        drawn = np.array([own.standard_normal(3) for own, _ in pairs]).T
+        self.stiffness: Floats = np.exp(spread.stiffness * drawn[0])
+        self.damping: Floats = np.exp(spread.damping * drawn[1])
+        self.leakage: Floats = np.exp(spread.leakage * drawn[2])
+        self._noise = [noise for _, noise in pairs]
+        self._block = np.empty((_BLOCK, CHANNELS, runs))
+        self._used = _BLOCK
+
+    def noise(self) -> Floats:
+        """Return the noise of the next sample, standard normal, shape (CHANNELS, runs)."""
+        if self._used == _BLOCK:
+            # A block at a time: a call for each run and sample would cost more than the physics.
+            for run, generator in enumerate(self._noise):
+                self._block[:, :, run] = generator.standard_normal((_BLOCK, CHANNELS))
+            self._used = 0
+        self._used += 1
+        drawn: Floats = self._block[self._used - 1]
+        return drawn

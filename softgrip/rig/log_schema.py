@@ -1,0 +1,130 @@
+"""What a log of the rig holds, whatever made it: a simulated rig, a replay, or a board."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+
+from softgrip.dynamics.integrate import Floats
+from softgrip.errors import InvalidInputError
+from softgrip.provenance import Provenance
+from softgrip.units import DEG, MM, PSI, REV, MPa
+
+SCHEMA = "softgrip-log 1"
+
+COLUMNS = {
+    "time": "s",
+    "command": "rad/s",
+    "pressure_counts": "count",
+    "angle_counts": "count",
+    "pressure": "Pa",
+    "angle": "rad",
+}
+"""Columns that each log has, in this order, with their units; more may follow them."""
+
+EVENT = "event"
+"""The last column: words on what happened, mostly empty."""
+
+KNOWN_UNITS: Mapping[tuple[str, str], float] = {
+    ("ms", "s"): 1e-3,
+    ("us", "s"): 1e-6,
+    ("deg", "rad"): DEG,
+    ("rev/s", "rad/s"): REV,
+    ("deg/s", "rad/s"): DEG,
+    ("kPa", "Pa"): 1e3,
+    ("MPa", "Pa"): MPa,
+    ("psi", "Pa"): PSI,
+    ("mm", "m"): MM,
+}
+"""Factors of the units that a reader converts, by (found, expected)."""
+
+
+@dataclass(frozen=True)
+class LogHeader:
+    """What is said of a log before its first row.
+
+    Attributes
+    ----------
+    provenance
+        simulated or logged.
+    source
+        What made it: a command, or the name of a rig.
+    back_end
+        simulated rig, replay, emulated board or board.
+    board, firmware
+        Names and versions; "none" without a board.
+    calibration
+        Name of the calibration of the sensors or of the rig.
+    seed
+        Of chance; empty without.
+    period
+        Sampling period, s.
+    notes
+        More keys and values, of one line each.
+    """
+
+    provenance: Provenance
+    source: str
+    back_end: str
+    period: float
+    board: str = "none"
+    firmware: str = "none"
+    calibration: str = "none"
+    seed: str = ""
+    notes: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.provenance not in (Provenance.SIMULATED, Provenance.LOGGED):
+            raise InvalidInputError(
+                "provenance", expected="simulated or logged", got=str(self.provenance)
+            )
+        if not 0 < self.period < float("inf"):
+            raise InvalidInputError("period", expected="a finite number > 0", got=self.period)
+        own = {entry.name for entry in fields(self)} | {"schema"}
+        for key, value in self.lines().items():
+            if value != value.strip() or any(c in key + value for c in "\r\n") or ":" in key:
+                raise InvalidInputError(key, expected="one line, not padded", got=value)
+        if own & set(self.notes):
+            raise InvalidInputError(
+                "notes", expected=f"keys other than {sorted(own)}", got=self.notes
+            )
+
+    def lines(self) -> dict[str, str]:
+        """Return the header's keys and values in the order in which they are written."""
+        return {
+            "provenance": str(self.provenance),
+            "source": self.source,
+            "schema": SCHEMA,
+            "back_end": self.back_end,
+            "board": self.board,
+            "firmware": self.firmware,
+            "calibration": self.calibration,
+            "seed": self.seed,
+            "period": repr(self.period),
+            **self.notes,
+        }
+
+
+@dataclass(frozen=True)
+class Log:
+    """A log that was read.
+
+    Attributes
+    ----------
+    header
+        What it says of itself.
+    columns
+        Values in SI by name, each of shape (samples,).
+    events
+        (time in s, words), in order.
+    repairs
+        What the reader changed, one sentence each; empty if nothing.
+    """
+
+    header: LogHeader
+    columns: Mapping[str, Floats]
+    events: tuple[tuple[float, str], ...]
+    repairs: tuple[str, ...]
+
+    def __getitem__(self, name: str) -> Floats:
+        if name not in self.columns:
+            raise InvalidInputError("name", expected=f"one of {list(self.columns)}", got=name)
+        return self.columns[name]

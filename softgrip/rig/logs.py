@@ -1,0 +1,126 @@
+"""Writing a log while the run goes on, so that a crash or a pulled plug costs a second at most."""
+
+import os
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+import numpy as np
+
+from softgrip.errors import InvalidInputError
+from softgrip.rig.log_schema import COLUMNS, EVENT, LogHeader
+
+SYNC_EVERY = 1.0
+"""Longest time, s, that a written row waits for the disk, as long as rows keep coming."""
+
+
+class LogWriter:
+    """Append rows to a new log; a context manager.
+
+    Each row leaves the process at once, and goes to the disk once a second.
+
+    Parameters
+    ----------
+    path
+        File to make; it must not exist, since a log is never written over.
+    header
+        What stands before the rows.
+    more
+        Columns beside `log_schema.COLUMNS`, with their units.
+    clock
+        Gives the seconds by which the disk is reached.
+
+    Raises
+    ------
+    InvalidInputError
+        If the file exists.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from softgrip.provenance import Provenance
+    >>> header = LogHeader(Provenance.SIMULATED, "an example", "simulated rig", 0.025)
+    >>> path = Path(tempfile.mkdtemp()) / "log.csv"
+    >>> with LogWriter(path, header) as log:
+    ...     log.write(time=0.0, command=0, pressure_counts=102, angle_counts=102,
+    ...               pressure=0.0, angle=0.0, event="start")
+    >>> path.read_text().splitlines()[-1]
+    '0.0,0.0,102,102,0.0,0.0,start'
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        header: LogHeader,
+        *,
+        more: Mapping[str, str] | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.units = {**COLUMNS, **(more or {})}
+        for name, unit in self.units.items():
+            if any(c in name + unit for c in ",\r\n[]") or name == EVENT:
+                raise InvalidInputError("more", expected="plain names and units", got=(name, unit))
+        try:
+            self._file = Path(path).open("x", encoding="utf-8", newline="", buffering=1)  # noqa: SIM115
+        except FileExistsError:
+            raise InvalidInputError(
+                "path", expected="a file that does not exist yet", got=str(path)
+            ) from None
+        self._clock, self._last = clock, clock()
+        self._time = -np.inf
+        for key, value in header.lines().items():
+            self._file.write(f"# {key}: {value}".rstrip() + "\n")
+        names = [f"{name} [{unit}]" for name, unit in self.units.items()]
+        self._file.write(",".join([*names, EVENT]) + "\n")
+        self._sync()
+
+    def _sync(self) -> None:
+        self._file.flush()
+        os.fsync(self._file.fileno())
+
+    def write(self, *, event: str = "", **values: float) -> None:
+        """Append one row.
+
+        Parameters
+        ----------
+        event
+            Words without comma or line break.
+        **values
+            A finite number for each column, in its unit; time must rise.
+        """
+        if values.keys() != self.units.keys():
+            raise InvalidInputError("values", expected=f"{list(self.units)}", got=list(values))
+        if any(c in event for c in ',\r\n"') or event != event.strip():
+            raise InvalidInputError("event", expected="words without comma or break", got=event)
+        cells = []
+        for name, unit in self.units.items():
+            value = float(values[name])
+            if not np.isfinite(value) or (unit == "count" and value != int(value)):
+                raise InvalidInputError(name, expected=f"a finite number in {unit}", got=value)
+            cells.append(str(int(value)) if unit == "count" else repr(value))
+        if not values["time"] > self._time:
+            raise InvalidInputError("time", expected=f"above {self._time}", got=values["time"])
+        self._time = values["time"]
+        self._file.write(",".join([*cells, event]) + "\n")
+        if self._clock() - self._last >= SYNC_EVERY:
+            self._sync()
+            self._last = self._clock()
+
+    def close(self) -> None:
+        """Bring all rows to the disk and close the file."""
+        if not self._file.closed:
+            self._sync()
+            self._file.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()

@@ -1,0 +1,49 @@
+"""The stepper motor and the plunger: what a commanded speed makes of them, in closed form."""
+
+import numpy as np
+
+from softgrip.dynamics.integrate import Floats
+from softgrip.rig.parameters import PumpParameters
+
+
+def speed(start: Floats, command: Floats, elapsed: Floats, pump: PumpParameters) -> Floats:
+    """Return the motor speed that ramps from `start` to the commanded one.
+
+    Parameters
+    ----------
+    start
+        Speed at the time of the command, rad/s, shape (runs,).
+    command
+        Commanded speed, rad/s, shape (runs,); cut to the speed limit.
+    elapsed
+        Time since the command, s, >= 0; broadcasts with the others.
+    pump
+        Its limits.
+
+    Returns
+    -------
+    ndarray
+        rad/s, of the shape to which the inputs broadcast.
+    """
+    change = np.clip(command, -pump.speed_limit, pump.speed_limit) - start
+    ramp = pump.acceleration_limit * elapsed
+    return start + np.clip(change, -ramp, ramp)
+
+
+def travel(start: Floats, command: Floats, elapsed: Floats, pump: PumpParameters) -> Floats:
+    """Return how far the plunger travels while the motor does as `speed` says, Eq. (4.1).
+
+    Parameters and shapes as in `speed`.
+
+    Returns
+    -------
+    ndarray
+        m, positive into the syringe. The ends of the stroke are not seen here.
+    """
+    target = np.clip(command, -pump.speed_limit, pump.speed_limit)
+    change = target - start
+    ramping = np.minimum(elapsed, np.abs(change) / pump.acceleration_limit)
+    lost = change * ramping - np.sign(change) * pump.acceleration_limit * ramping**2 / 2
+    # While it ramps the motor is behind the target by `change` less what it has gained.
+    way: Floats = pump.advance * (target * elapsed - lost)
+    return way

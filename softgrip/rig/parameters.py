@@ -1,0 +1,214 @@
+"""What the simulated rig is made of: pump, gas, finger, sensors, and their spread over runs."""
+
+from dataclasses import dataclass, field, fields
+from math import isfinite
+
+from softgrip.errors import InvalidInputError
+from softgrip.units import DEG, ML, MM, PSI, REV
+
+
+def _check(parameters: object, *, zero: tuple[str, ...] = ()) -> None:
+    """Raise unless each number is finite and above zero, or, for those named, not below it."""
+    for entry in fields(parameters):  # type: ignore[arg-type]
+        value = getattr(parameters, entry.name)
+        for number in value if isinstance(value, tuple) else (value,):
+            good = isfinite(number) and (number > 0 or (number == 0 and entry.name in zero))
+            if not good:
+                sign = ">=" if entry.name in zero else ">"
+                raise InvalidInputError(entry.name, expected=f"finite, {sign} 0", got=value)
+
+
+@dataclass(frozen=True)
+class PumpParameters:
+    """The syringe and the linear actuator that drives it (Sections 4.2 and 4.4).
+
+    Attributes
+    ----------
+    area
+        A, m^2.
+    lead
+        l of the screw, m.
+    syringe_volume
+        Air in the syringe when its plunger is drawn out, m^3.
+    speed_limit
+        Largest motor speed, rad/s.
+    acceleration_limit
+        Largest change of motor speed, rad/s^2 (assumed: 0.1 s to full speed).
+    """
+
+    area: float = 6.61e-4
+    lead: float = 8 * MM
+    syringe_volume: float = 60 * ML
+    speed_limit: float = 5 * REV
+    acceleration_limit: float = 50 * REV
+
+    def __post_init__(self) -> None:
+        _check(self)
+
+    @property
+    def stroke(self) -> float:
+        """Travel of the plunger, m."""
+        return self.syringe_volume / self.area
+
+    @property
+    def advance(self) -> float:
+        """Travel of the plunger per angle of the motor, ``l / 2 pi`` of Eq. (4.1), m/rad."""
+        return self.lead / REV
+
+
+@dataclass(frozen=True)
+class GasParameters:
+    """The air: ideal, and at the temperature of the room (Section 4.2).
+
+    Attributes
+    ----------
+    temperature
+        K (assumed).
+    atmosphere
+        Pa, absolute (standard).
+    dead_volume
+        Tube and fittings, m^3 (assumed: 0.4 m of 2.5 mm bore).
+    leakage
+        G of the leak ``n R T' = -G (P**2 - P_atm**2) / 2``, m^3/(s Pa): laminar flow of a gas
+        through a narrow gap (assumed: 0.2 % of the air a second at 0.15 MPa).
+    """
+
+    temperature: float = 293.15
+    atmosphere: float = 101325.0
+    dead_volume: float = 2 * ML
+    leakage: float = 7e-13
+
+    def __post_init__(self) -> None:
+        _check(self, zero=("leakage", "dead_volume"))
+
+
+@dataclass(frozen=True)
+class FingerParameters:
+    """The finger. `softgrip.rig.calibration` gives those of Design 1.
+
+    Attributes
+    ----------
+    stiffness
+        K of the settled torque ``K theta**n``, N m/rad^n.
+    fractional_power
+        n, >= 1.
+    inertia
+        kg m^2: what the printed frequency asks for, far above that of the rubber alone.
+    damping
+        N m s/rad.
+    torque_per_pressure
+        N m/Pa. It is also the growth of the finger's volume with its angle, m^3/rad: the work
+        that the air does when the finger bends is the work of the torque.
+    rest_volume
+        Air in the finger at rest, m^3.
+    ballooning
+        Growth of its volume with pressure at a held angle, m^3/Pa (assumed).
+    memory
+        Parts of the settled torque that the branches of the memory add at once, dimensionless.
+    memory_time
+        Their relaxation times, s (both assumed).
+    friction
+        Torque of dry friction, N m (assumed), smoothed below `friction_rate`, rad/s.
+    """
+
+    stiffness: float
+    fractional_power: float
+    inertia: float
+    damping: float
+    torque_per_pressure: float
+    rest_volume: float
+    ballooning: float = 6e-12
+    memory: tuple[float, ...] = (0.08, 0.05)
+    memory_time: tuple[float, ...] = (0.5, 8.0)
+    friction: float = 1e-4
+    friction_rate: float = 0.05
+
+    def __post_init__(self) -> None:
+        _check(self, zero=("damping", "ballooning", "memory", "friction", "torque_per_pressure"))
+        if self.fractional_power < 1:
+            raise InvalidInputError("fractional_power", expected=">= 1", got=self.fractional_power)
+        if len(self.memory) != len(self.memory_time):
+            raise InvalidInputError("memory", expected="one for each memory_time", got=self.memory)
+
+
+@dataclass(frozen=True)
+class SensorParameters:
+    """The two sensors and the converter (Sections 4.4 and 6.4).
+
+    Both sensors are first-order lags. Their outputs span the middle of the converter's scale, from
+    `low_count` to `high_count`, as 0.5 to 4.5 V of 5 V do.
+
+    Attributes
+    ----------
+    pressure_range
+        Pa, gauge.
+    pressure_noise
+        Pa, root mean square (assumed).
+    pressure_lag
+        s (assumed).
+    angle_range
+        rad; a finger that bends further reads this.
+    angle_noise
+        rad, root mean square.
+    angle_lag
+        s (assumed).
+    low_count, high_count
+        Counts at zero and at the end of the range.
+    bits
+        Of the converter.
+    """
+
+    pressure_range: float = 80 * PSI
+    pressure_noise: float = 500.0
+    pressure_lag: float = 0.015
+    angle_range: float = 100 * DEG
+    angle_noise: float = 2 * DEG
+    angle_lag: float = 0.04
+    low_count: float = 102.3
+    high_count: float = 920.7
+    bits: int = 10
+
+    def __post_init__(self) -> None:
+        _check(self, zero=("pressure_noise", "angle_noise", "low_count"))
+        if not self.low_count < self.high_count <= self.largest_count:
+            raise InvalidInputError(
+                "low_count, high_count",
+                expected=f"rising, up to {self.largest_count}",
+                got=(self.low_count, self.high_count),
+            )
+
+    @property
+    def largest_count(self) -> int:
+        """Count at the end of the converter's scale."""
+        return int(2**self.bits) - 1
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Standard deviation of the logarithm of what differs from run to run, dimensionless.
+
+    Attributes
+    ----------
+    stiffness, damping
+        Of the finger; the first is calibrated, the second assumed.
+    leakage
+        Of the air path (assumed).
+    """
+
+    stiffness: float = 0.0
+    damping: float = 0.0
+    leakage: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check(self, zero=("stiffness", "damping", "leakage"))
+
+
+@dataclass(frozen=True)
+class RigParameters:
+    """All of the simulated rig."""
+
+    finger: FingerParameters
+    pump: PumpParameters = field(default_factory=PumpParameters)
+    gas: GasParameters = field(default_factory=GasParameters)
+    sensors: SensorParameters = field(default_factory=SensorParameters)
+    spread: Spread = field(default_factory=Spread)

@@ -1,0 +1,96 @@
+"""From what the sensors feel to counts of the converter, and back to pressure and angle."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from softgrip.dynamics.integrate import Floats
+from softgrip.rig.parameters import SensorParameters
+
+Counts = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """What the sensors say at one time, or, with a leading axis, at many.
+
+    Attributes
+    ----------
+    time
+        s, a number or shape (samples,).
+    pressure
+        Gauge, Pa, shape (..., runs).
+    angle
+        rad, same shape.
+    pressure_counts, angle_counts
+        What the converter gave, same shape.
+    """
+
+    time: float | Floats
+    pressure: Floats
+    angle: Floats
+    pressure_counts: Counts
+    angle_counts: Counts
+
+
+def to_counts(value: Floats, full: float, sensors: SensorParameters) -> Counts:
+    """Return the counts of a sensor, rounded and cut to the converter's scale.
+
+    Parameters
+    ----------
+    value
+        Output of the sensor with its noise, any unit, any shape.
+    full
+        End of the sensor's range, same unit.
+    sensors
+        Its scale.
+
+    Examples
+    --------
+    >>> to_counts(np.array([0.0, 1.0, 9.0]), 1.0, SensorParameters()).tolist()
+    [102, 921, 1023]
+    """
+    span = sensors.high_count - sensors.low_count
+    scaled = np.rint(sensors.low_count + value * (span / full))
+    return np.clip(scaled, 0, sensors.largest_count).astype(np.int64)
+
+
+def from_counts(counts: Counts, full: float, sensors: SensorParameters) -> Floats:
+    """Return the value that a count stands for: the line of `to_counts`, read backwards."""
+    span = sensors.high_count - sensors.low_count
+    value: Floats = (counts.astype(np.float64) - sensors.low_count) * (full / span)
+    return value
+
+
+def measure(
+    time: float | Floats, pressure: Floats, angle: Floats, noise: Floats, sensors: SensorParameters
+) -> Measurement:
+    """Convert what the sensors feel.
+
+    Parameters
+    ----------
+    time
+        s.
+    pressure, angle
+        Outputs of the lags, Pa gauge and rad, shape (..., runs).
+    noise
+        Standard normal numbers, shape (2, ..., runs): of the pressure and of the angle.
+    sensors
+        Their parameters.
+    """
+    felt_pressure = np.minimum(pressure, sensors.pressure_range)
+    felt_angle = np.minimum(angle, sensors.angle_range)
+    pressure_counts = to_counts(
+        felt_pressure + sensors.pressure_noise * noise[0], sensors.pressure_range, sensors
+    )
+    angle_counts = to_counts(
+        felt_angle + sensors.angle_noise * noise[1], sensors.angle_range, sensors
+    )
+    return Measurement(
+        time,
+        from_counts(pressure_counts, sensors.pressure_range, sensors),
+        from_counts(angle_counts, sensors.angle_range, sensors),
+        pressure_counts,
+        angle_counts,
+    )

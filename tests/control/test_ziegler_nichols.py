@@ -1,0 +1,147 @@
+"""Reaction curve and Ziegler-Nichols rule on processes whose answer is known in closed form."""
+
+import control
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softgrip.control.pid import pid_state_space
+from softgrip.control.reaction_curve import (
+    ReactionCurve,
+    integrating_reaction_curve,
+    reaction_curve,
+)
+from softgrip.control.ziegler_nichols import ziegler_nichols
+from softgrip.dynamics.second_order import SecondOrder, full_state_space, step_response
+from softgrip.errors import InvalidInputError
+
+TIME = np.arange(0, 20, 0.001)
+
+
+def first_order_with_delay(gain, T, L):
+    return gain * (1 - np.exp(-np.maximum(TIME - L, 0) / T))
+
+
+@pytest.mark.parametrize(("gain", "T", "L"), [(2.0, 3.0, 0.5), (-1.5, 1.0, 1.0), (1e-5, 0.5, 0.1)])
+def test_first_order_with_delay(gain, T, L):
+    curve = reaction_curve(TIME, 3.0 * first_order_with_delay(gain, T, L), step=3.0)
+    # The tangent is a chord over one sample: off by half a sample's share of T.
+    assert curve.delay == pytest.approx(L, abs=1e-3)
+    assert curve.slope == pytest.approx(gain / T, rel=2e-3)
+    assert curve.time_constant == pytest.approx(T, rel=1e-2)
+
+
+def test_three_equal_lags():
+    # 1 / (s + 1)^3: inflexion at t = 2 with slope 2 e^-2, hence L = (e^2 - 5) / 2.
+    curve = reaction_curve(TIME, 1 - np.exp(-TIME) * (1 + TIME + TIME**2 / 2))
+    assert curve.slope == pytest.approx(2 * np.exp(-2), rel=1e-5)
+    assert curve.delay == pytest.approx(2 - (1 - 5 * np.exp(-2)) / (2 * np.exp(-2)), rel=1e-5)
+
+
+def test_finger_alone():
+    # Eq. (4.14): the rate is greatest at arccos(zeta) / omega_d.
+    w, z = 2.86, 0.7
+    wd = w * np.sqrt(1 - z**2)
+    at = np.arccos(z) / wd
+    slope = w * np.exp(-z * w * at)
+    curve = reaction_curve(TIME, step_response(TIME, w, z))
+    assert curve.slope == pytest.approx(slope, rel=1e-5)
+    assert curve.delay == pytest.approx(at - step_response(at, w, z) / slope, rel=1e-4)
+
+
+def test_noisy_record_needs_a_window():
+    noisy = first_order_with_delay(1.0, 3.0, 1.0)[::25]
+    noisy = noisy + np.random.default_rng(0).normal(0, 0.01, noisy.size)
+    curve = reaction_curve(TIME[::25], noisy, window=25)
+    # A window of 0.6 s on a lag of 3 s takes the slope a tenth too low.
+    assert curve.slope == pytest.approx(1 / 3, rel=0.15)
+    assert curve.delay == pytest.approx(1.0, abs=0.15)
+
+
+def test_integrator_with_delay():
+    curve = integrating_reaction_curve(TIME, 2.0 * 0.7 * np.maximum(TIME - 1.3, 0), step=2.0)
+    assert (curve.slope, curve.delay) == pytest.approx((0.7, 1.3))
+    assert curve.gain == np.inf
+
+
+@pytest.mark.parametrize("damping", [0.6, 0.7, 0.8, 1.5])
+def test_full_model_has_the_delay_of_its_lag(damping):
+    # Eq. (4.15): a ramp through a second-order lag stays 2 zeta / omega_n behind.
+    system = full_state_space(SecondOrder(2.86, damping, 2.4e-5), 3000.0)
+    y = control.step_response(system, TIME[::10]).outputs
+    curve = integrating_reaction_curve(TIME[::10], y)
+    assert curve.slope == pytest.approx(0.072, rel=1e-3)
+    assert curve.delay == pytest.approx(2 * damping / 2.86, rel=1e-2)
+
+
+def test_rule_of_1942():
+    curve = ReactionCurve(delay=0.5, slope=2.0)
+    p, pi, pid = (ziegler_nichols(curve, kind) for kind in ("P", "PI", "PID"))
+    assert (p.kp, p.ki, p.kd) == pytest.approx((1.0, 0.0, 0.0))
+    assert (pi.kp, pi.kp / pi.ki, pi.kd) == pytest.approx((0.9, 0.5 / 0.3, 0.0))
+    assert (pid.kp, pid.kp / pid.ki, pid.kd / pid.kp) == pytest.approx((1.2, 1.0, 0.25))
+    assert pid.derivative_filter == pytest.approx(0.025)
+
+
+@given(unit=st.floats(1e-6, 1e6), pace=st.floats(0.1, 10))
+def test_gains_follow_the_units(unit, pace):
+    one = ziegler_nichols(ReactionCurve(0.4, 2.0))
+    other = ziegler_nichols(ReactionCurve(0.4 * pace, 2.0 * unit / pace))
+    assert other.kp * unit == pytest.approx(one.kp)
+    assert other.ki * unit * pace == pytest.approx(one.ki)
+    assert other.kd * unit / pace == pytest.approx(one.kd)
+
+
+@pytest.mark.parametrize("scale", np.geomspace(1e-7, 10, 15))
+@pytest.mark.parametrize("kind", ["PI", "PID"])
+def test_rule_for_the_finger_alone_cannot_be_scaled_to_hold_it_with_its_pump(scale, kind):
+    # Routh: near a double integrator the phase is lost unless ki / kp < omega_n / (2 zeta).
+    finger = SecondOrder(2.86, 0.7, 2.4e-5)
+    gains = ziegler_nichols(
+        reaction_curve(TIME, finger.gain * step_response(TIME, 2.86, 0.7)), kind
+    )
+    assert gains.ki / gains.kp > 2.86 / 1.4
+    loop = full_state_space(finger, 3000.0) * pid_state_space(gains) * scale
+    assert control.feedback(loop, 1).poles().real.max() > 0
+
+
+def test_ramp_is_no_response_at_rest():
+    with pytest.raises(InvalidInputError, match="integrating_reaction_curve"):
+        reaction_curve(TIME, np.maximum(TIME - 1, 0))
+
+
+def test_bent_end_is_no_ramp():
+    with pytest.raises(InvalidInputError, match="straight ramp"):
+        integrating_reaction_curve(TIME, TIME**2)
+
+
+@pytest.mark.parametrize("function", [reaction_curve, integrating_reaction_curve])
+@pytest.mark.parametrize(
+    ("time", "output", "step"),
+    [
+        (TIME[:5], TIME[:5], 1.0),
+        (TIME, TIME[:-1], 1.0),
+        (TIME[::-1], TIME, 1.0),
+        (TIME, np.full_like(TIME, np.nan), 1.0),
+        (TIME, 0 * TIME, 1.0),
+        (TIME, TIME, 0.0),
+    ],
+)
+def test_records_that_are_no_step_response(function, time, output, step):
+    with pytest.raises(InvalidInputError):
+        function(time, output, step=step)
+
+
+def test_no_delay_no_gains():
+    with pytest.raises(InvalidInputError, match="after the step"):
+        integrating_reaction_curve(TIME, TIME + 1 - np.exp(-5 * TIME))
+
+
+def test_unknown_kind_and_options():
+    with pytest.raises(InvalidInputError, match="PID"):
+        ziegler_nichols(ReactionCurve(1.0, 1.0), "PD")
+    with pytest.raises(InvalidInputError, match="window"):
+        reaction_curve(TIME, TIME, window=1)
+    with pytest.raises(InvalidInputError, match="tail"):
+        integrating_reaction_curve(TIME, TIME, tail=0.0)

@@ -1,0 +1,105 @@
+"""Second-order identification: known systems come back, within intervals that mean 95 %."""
+
+import numpy as np
+import pytest
+from scipy.optimize import curve_fit
+from scipy.stats import binom
+
+from softgrip.dynamics.identify import identify
+from softgrip.dynamics.sampled_response import response
+from softgrip.dynamics.second_order import SecondOrder, step_response
+from softgrip.errors import InvalidInputError
+
+TIME = np.arange(0, 6, 0.025)
+RISING = np.where(TIME < 0.5, 0.0, 1e5 * (1 - np.exp(-(TIME - 0.5) / 0.4)))
+"""A pressure as a pump makes it: no perfect step."""
+
+
+@pytest.mark.parametrize("damping", [0.1, 0.7, 1.0, 2.5])
+@pytest.mark.parametrize("gain", [2.4e-5, -2.4e-5])
+def test_exact_record_gives_the_system_back(damping, gain):
+    true = SecondOrder(2.86, damping, gain)
+    found = identify(TIME, RISING, 0.05 + response(true, TIME, RISING))
+    assert found.natural_frequency.value == pytest.approx(2.86, rel=1e-6)
+    assert found.damping_ratio.value == pytest.approx(damping, rel=1e-6)
+    assert found.gain.value == pytest.approx(gain, rel=1e-6)
+    assert found.offset.value == pytest.approx(0.05, abs=1e-6)
+    assert found.fit_percent == pytest.approx(100, abs=1e-4)
+    assert found.system.natural_frequency == found.natural_frequency.value
+
+
+def test_intervals_hold_the_truth_95_times_in_100():
+    true = SecondOrder(2.86, 0.7, 2.4e-5)
+    clean = 0.05 + response(true, TIME, RISING)
+    runs, hits = 50, np.zeros(4, int)
+    for seed in range(runs):
+        noise = np.random.default_rng(seed).normal(0, 0.035, TIME.size)  # 2 deg
+        counts = np.round((clean + noise) / 0.006) * 0.006  # 10 bits over about 350 deg
+        found = identify(TIME, RISING, counts)
+        estimates = (found.natural_frequency, found.damping_ratio, found.gain, found.offset)
+        truths = (2.86, 0.7, 2.4e-5, 0.05)
+        hits += [e.low <= v <= e.high for e, v in zip(estimates, truths, strict=True)]
+    low, high = binom.interval(0.999, runs, 0.95)
+    assert np.all((hits >= low) & (hits <= high)), hits
+
+
+def test_agrees_with_a_general_fitter_on_a_perfect_step():
+    y = 1.5 * step_response(TIME, 2.0, 0.5) + np.random.default_rng(5).normal(0, 0.02, TIME.size)
+
+    def model(t, w, z, k, offset):
+        return offset + k * step_response(t, w, z)
+
+    values, covariance = curve_fit(model, TIME, y, p0=(1, 1, 1, 0), bounds=([0.1, 0, 0, -1], 9))
+    found = identify(TIME, np.ones_like(TIME), y, initial_input=0.0)
+    estimates = (found.natural_frequency, found.damping_ratio, found.gain, found.offset)
+    assert [e.value for e in estimates] == pytest.approx(values, rel=1e-4, abs=1e-5)
+    # 2 %: the two take the derivatives by different finite differences.
+    errors = [e.standard_error for e in estimates]
+    assert errors == pytest.approx(np.sqrt(np.diag(covariance)), rel=0.02)
+
+
+def test_units_scale_the_gain_only():
+    y = response(SecondOrder(2.86, 0.7, 2.4e-5), TIME, RISING)
+    y = y + np.random.default_rng(1).normal(0, 0.03, y.size)
+    si, other = identify(TIME, RISING, y), identify(TIME, RISING / 1e6, np.rad2deg(y))
+    assert other.gain.value == pytest.approx(np.rad2deg(si.gain.value) * 1e6, rel=1e-6)
+    assert other.damping_ratio.low == pytest.approx(si.damping_ratio.low, rel=1e-5)
+
+
+def test_held_command_is_not_taken_for_a_ramp():
+    t = np.arange(0, 6, 0.1)
+    u = np.where(t < 0.95, 0.0, 1.0)
+    y = response(SecondOrder(2.86, 0.7), t, u, hold="zero")
+    assert identify(t, u, y, hold="zero").natural_frequency.value == pytest.approx(2.86, rel=1e-6)
+    assert abs(identify(t, u, y).natural_frequency.value / 2.86 - 1) > 0.02
+
+
+def test_uneven_times_are_used_as_they_are():
+    t = np.sort(np.random.default_rng(4).uniform(0, 6, 100))
+    u = np.sin(2 * t)
+    y = response(SecondOrder(2.86, 0.7), t, u)
+    assert identify(t, u, y).natural_frequency.value == pytest.approx(2.86, rel=1e-6)
+
+
+GOOD = response(SecondOrder(2.86, 0.7, 2.4e-5), TIME, RISING)
+NOISE = np.random.default_rng(0).normal(0, 1, TIME.size)
+
+
+@pytest.mark.parametrize(
+    ("time", "pressure", "angle", "message"),
+    [
+        (TIME, np.ones_like(TIME), GOOD, "initial_input"),
+        (TIME, RISING, 0 * TIME, "output: expected a response"),
+        (TIME[:5], RISING[:5], GOOD[:5], "N >= 8"),
+        (TIME, RISING[:-1], GOOD, "one shape"),
+        (TIME, RISING, np.where(TIME == 1, np.nan, GOOD), "finite"),
+        (TIME[::-1], RISING, GOOD, "increasing"),
+        (np.repeat(TIME[::2], 2), RISING, GOOD, "increasing"),
+        (TIME[:28], RISING[:28], GOOD[:28] + 0.02 * NOISE[:28], "determines the parameters"),
+        (TIME, RISING, 0.05 * NOISE, "determines the parameters"),
+    ],
+    ids=["still", "silent", "few", "shapes", "nan", "backwards", "repeated", "short", "drowned"],
+)
+def test_records_that_tell_nothing(time, pressure, angle, message):
+    with pytest.raises(InvalidInputError, match=message):
+        identify(time, pressure, angle)

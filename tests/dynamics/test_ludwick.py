@@ -1,0 +1,117 @@
+"""Eq. (5.12) to (5.16)."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad, solve_ivp
+
+from softgrip.dynamics.integrate import rk4
+from softgrip.dynamics.ludwick import (
+    LudwickFinger,
+    acceleration,
+    derivative,
+    modified_moment,
+    restoring_force,
+    spring_constant,
+    step_responses,
+)
+from softgrip.errors import InvalidInputError
+
+SIZES = {"width": 0.030, "height": 0.024}
+powers = st.floats(1.0, 3.0)
+
+
+def test_power_one_is_twice_the_linear_model_to_which_it_is_said_to_degrade():
+    b, h, L, E = 0.030, 0.024, 0.094, 0.34e6
+    linear_moment = b * h**3 / 12  # Eq. (5.11)
+    linear_constant = 2 * E * linear_moment / L**2  # Eq. (5.10)
+    assert modified_moment(1.0, b, h) == pytest.approx(2 * linear_moment)
+    assert spring_constant(E, 1.0, b, h, L) == pytest.approx(2 * linear_constant)
+
+
+@given(n=powers)
+def test_section_integral_is_half_of_the_print_and_equals_chapter_3(n):
+    # Ludwick's stress |y|^n over the section: the integral of b |y|^(1 + n) dy.
+    b, h = SIZES["width"], SIZES["height"]
+    integral = 2 * quad(lambda y: b * (y * h) ** (1 + n) * h, 0, 0.5)[0]
+    chapter_3 = 0.5 ** (1 + n) / (2 + n) * b * h ** (2 + n)  # Eq. (3.8)
+    assert integral == pytest.approx(chapter_3, rel=1e-6)
+    assert modified_moment(n, **SIZES) == pytest.approx(2 * integral, rel=1e-6)
+
+
+@given(n=powers, angle=st.floats(-4, 4))
+def test_spring_is_odd(n, angle):
+    assert restoring_force(-angle, 2.0, n) == -restoring_force(angle, 2.0, n)
+
+
+@given(n=powers, angle=st.floats(0.01, 4))
+def test_at_rest_the_force_is_the_static_law(n, angle):
+    finger = LudwickFinger(0.5, 1.0, 2.0, n)
+    assert acceleration(finger, angle, 0.0, 2.0 * angle**n) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_integrator_law_is_the_acceleration():
+    rng = np.random.default_rng(0)
+    finger = LudwickFinger(*rng.uniform(1, 2, (4, 5)))
+    state, force = rng.normal(size=(2, 5)), rng.normal(size=5)
+    slope = np.empty((2, 5))
+    derivative(finger, force)(0.0, state, slope)
+    np.testing.assert_array_equal(slope[0], state[1])
+    np.testing.assert_allclose(slope[1], acceleration(finger, *state, force), rtol=1e-12)
+
+
+def test_power_one_gives_the_closed_second_order_response():
+    wn, zeta = 2.86, 0.7
+    times = np.linspace(0, 5, 501)
+    law = derivative(LudwickFinger(1.0, 2 * zeta * wn, wn**2, 1.0), wn**2)
+    found = rk4(law, np.zeros((2, 1)), times, 0.02)[:, 0, 0]
+    wd = wn * (1 - zeta**2) ** 0.5
+    decay = np.exp(-zeta * wn * times)
+    true = 1 - decay * (np.cos(wd * times) + zeta * wn / wd * np.sin(wd * times))
+    np.testing.assert_allclose(found, true, atol=1e-6)
+
+
+def fingers(runs):
+    rng = np.random.default_rng(0)
+    n = rng.uniform(1.5, 2.5, runs)
+    stiffness = 8.18 / n * rng.uniform(0.8, 1.2, runs)
+    finger = LudwickFinger(np.ones(runs), 4 * rng.uniform(0.8, 1.2, runs), stiffness, n)
+    return finger, stiffness * rng.uniform(0.3, 1.6, runs) ** n
+
+
+def test_step_responses_agree_with_a_tight_reference_to_a_millionth():
+    finger, force = fingers(12)
+    times = np.linspace(0, 5, 5001)
+    ((_, found),) = step_responses(finger, force, times, 0.025, runs=12)
+    for i in range(12):
+        m, c, k, n = (np.asarray(v)[i] for v in vars(finger).values())
+
+        def plain(_t, y, m=m, c=c, k=k, n=n, f=force[i]):
+            return [y[1], (f - c * y[1] - k * y[0] * abs(y[0]) ** (n - 1)) / m]
+
+        true = solve_ivp(
+            plain, (0, 5), [0, 0], method="DOP853", rtol=1e-11, atol=1e-12, t_eval=times
+        )
+        assert abs(found[:, i] - true.y[0]).max() < 1e-6
+
+
+def test_parts_of_a_batch_are_the_batch():
+    finger, force = fingers(10)
+    times = np.linspace(0, 2, 101)
+    ((_, whole),) = step_responses(finger, force, times, 0.02, runs=10)
+    whole = whole.copy()
+    seen = 0
+    for part, angle in step_responses(finger, force, times, 0.02, runs=10, limit=3 * 8 * 101):
+        assert angle.shape == (101, part.stop - part.start)
+        np.testing.assert_allclose(angle, whole[:, part], rtol=1e-12, atol=1e-15)
+        seen += angle.shape[1]
+    assert seen == 10
+
+
+@pytest.mark.parametrize(
+    "values", [(0.0, 1, 1, 2), (1, -1, 1, 2), (1, 1, np.nan, 2), (1, 1, 1, 0.9)]
+)
+def test_bad_parameters_are_refused(values):
+    with pytest.raises(InvalidInputError):
+        LudwickFinger(*values)

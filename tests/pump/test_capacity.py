@@ -1,0 +1,196 @@
+"""The elastance filter: against the joint Gaussian and against chi-square."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from scipy.stats import chi2
+
+from softgrip.errors import InvalidInputError
+from softgrip.pump.capacity import estimate
+from softgrip.pump.elastance import (
+    ElastanceModel,
+    NoiseLevels,
+    Prior,
+    elastance_filter,
+    transitions,
+)
+from softgrip.pump.flow import PARAMETER_SETS
+from softgrip.pump.observability import observable_rank
+
+from .gaussian import JointGaussian
+
+DT = 0.025
+FLOW = PARAMETER_SETS["default"].flow
+NOISE = NoiseLevels(pressure_step=40.0, elastance_step=2e7, sensor=150.0)
+PRIOR = Prior(pressure=0.0, pressure_std=200.0, elastance=1e9, elastance_std=2e8)
+MODEL = ElastanceModel(DT, NOISE, PRIOR, angle_gain=-3e8)
+SCALE = np.array([1e4, 1e9])
+
+
+def simulate(model, flow, angle, runs, seed):
+    """Draw from the filter's own model: true states (runs, N, 2), measurements (runs, N)."""
+    rng = np.random.default_rng(seed)
+    noise, prior = model.noise, model.prior
+    x = np.stack(
+        [
+            rng.normal(prior.pressure, prior.pressure_std, runs),
+            rng.normal(prior.elastance, prior.elastance_std, runs),
+        ],
+        axis=-1,
+    )
+    states = [x]
+    for F, turn in zip(transitions(flow[:-1], model.time_step), np.diff(angle), strict=True):
+        w = rng.normal(0, [noise.pressure_step, noise.elastance_step], (runs, 2))
+        x = x @ F.T + [0.0, model.angle_gain * turn] + w
+        states.append(x)
+    states = np.stack(states, axis=1)
+    return states, states[..., 0] + rng.normal(0, noise.sensor, states.shape[:2])
+
+
+def oracle_of(model, flow, angle):
+    kalman = elastance_filter(model)
+    b = np.stack([np.zeros(len(flow) - 1), model.angle_gain * np.diff(angle)], axis=-1)
+    F = transitions(flow[:-1], model.time_step)
+    return JointGaussian(F, b, kalman.H, kalman.Q, kalman.R, kalman.x[:, 0], kalman.P)
+
+
+@pytest.fixture(scope="module")
+def short():
+    flow = FLOW * np.array([1, 1, 0.5, 0, -1, 1, 2, 1.0])
+    angle = np.array([0, 0.1, 0.15, 0.3, 0.2, 0.4, 0.7, 0.8])
+    _, measured = simulate(MODEL, flow, angle, 1, seed=3)
+    return measured[0], flow, angle
+
+
+def test_filter_agrees_with_the_joint_gaussian(short):
+    measured, flow, angle = short
+    found, oracle = estimate(measured, flow, angle, MODEL), oracle_of(MODEL, flow, angle)
+    for k in range(8):
+        mean, covariance = oracle.state(k, measured[: k + 1, None])
+        std = np.sqrt(np.diag(covariance))
+        np.testing.assert_allclose(found.state[k] / std, mean / std, rtol=1e-9, atol=1e-9)
+        unit = np.outer(std, std)
+        np.testing.assert_allclose(found.covariance[k] / unit, covariance / unit, atol=1e-9)
+
+
+def test_likelihood_is_the_joint_density(short):
+    measured, flow, angle = short
+    expected = oracle_of(MODEL, flow, angle).log_density(measured)
+    assert estimate(measured, flow, angle, MODEL).log_likelihood == pytest.approx(
+        expected, rel=1e-9
+    )
+
+
+def ramp(n):
+    time = np.arange(n) * DT
+    return np.full(n, FLOW), 0.6 * time
+
+
+RUNS, SAMPLES = 200, 60
+
+
+@pytest.fixture(scope="module")
+def monte_carlo():
+    flow, angle = ramp(SAMPLES)
+    states, measured = simulate(MODEL, flow, angle, RUNS, seed=0)
+    return flow, angle, states, measured
+
+
+def normalized(monte_carlo, model):
+    flow, angle, states, measured = monte_carlo
+    found = [estimate(z, flow, angle, model) for z in measured]
+    nis = np.array([f.normalized_innovation_squared for f in found])
+    error = states - np.array([f.state for f in found])
+    nees = np.einsum("rki,rkij,rkj->rk", error, np.linalg.inv([f.covariance for f in found]), error)
+    return nis, nees
+
+
+def test_innovations_and_errors_are_as_large_as_the_filter_says(monte_carlo):
+    nis, nees = normalized(monte_carlo, MODEL)
+    # All innovations are independent; errors are independent between runs only.
+    low, high = chi2.ppf([0.025, 0.975], nis.size)
+    assert low < nis.sum() < high
+    low, high = chi2.ppf([0.025, 0.975], 2 * RUNS)
+    for k in (0, SAMPLES // 2, SAMPLES - 1):
+        assert low < nees[:, k].sum() < high
+    inside = (low < nees.sum(axis=0)) & (nees.sum(axis=0) < high)
+    assert inside.mean() > 0.8  # 0.95 is expected; the samples of a run are not independent
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"sensor": 75.0}, {"sensor": 300.0}, {"elastance_step": 0.0}],
+)
+def test_wrong_noise_levels_are_seen(monte_carlo, wrong):
+    """The test above can fail: levels wrong by a factor 2, or left out, leave the bounds."""
+    flow, angle, states, measured = monte_carlo
+    part = flow, angle, states[:50], measured[:50]
+    model = dataclasses.replace(MODEL, noise=dataclasses.replace(NOISE, **wrong))
+    nis, nees = normalized(part, model)
+    low, high = chi2.ppf([0.025, 0.975], nis.size)
+    last_low, last_high = chi2.ppf([0.025, 0.975], 2 * 50)
+    assert not (low < nis.sum() < high and last_low < nees[:, -1].sum() < last_high)
+
+
+def test_elastance_is_observable_as_soon_as_the_pump_moves():
+    H = elastance_filter(MODEL).H
+    assert observable_rank(transitions(np.zeros(50), DT), H, SCALE) == 1
+    assert observable_rank(transitions([0, 0, FLOW], DT), H, SCALE) == 2
+
+
+def test_pump_at_rest_teaches_nothing_of_the_elastance():
+    measured, still = np.random.default_rng(1).normal(0, 150, 50), np.zeros(50)
+    model = dataclasses.replace(MODEL, noise=dataclasses.replace(NOISE, elastance_step=0.0))
+    found = estimate(measured, still, still, model)
+    np.testing.assert_allclose(found.elastance, PRIOR.elastance, rtol=1e-12)
+    np.testing.assert_allclose(found.covariance[:, 1, 1], PRIOR.elastance_std**2, rtol=1e-12)
+
+
+def test_result_cannot_be_written_to(short):
+    found = estimate(*short, MODEL)
+    with pytest.raises(ValueError, match="read-only"):
+        found.state[0, 0] = 0.0
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        found.time = None
+
+
+def test_capacity_is_nan_where_noise_has_pushed_the_elastance_below_zero(short):
+    _, flow, angle = short
+    prior = dataclasses.replace(PRIOR, elastance=1e8, elastance_std=1e10)
+    found = estimate(np.linspace(0, -1e5, 8), flow, angle, dataclasses.replace(MODEL, prior=prior))
+    below = found.elastance <= 0
+    assert below.any()
+    np.testing.assert_array_equal(np.isnan(found.capacity), below)
+
+
+def test_state_stays_a_column():
+    kalman = elastance_filter(MODEL)
+    kalman.predict(u=np.array([[0.1]]), F=transitions([FLOW], DT)[0])
+    kalman.update(10.0)
+    assert kalman.x.shape == (2, 1)
+
+
+def test_bad_records_are_refused(short):
+    measured, flow, angle = short
+    with pytest.raises(InvalidInputError, match="one shape"):
+        estimate(measured, flow[:-1], angle, MODEL)
+    with pytest.raises(InvalidInputError, match="N >= 2"):
+        estimate(measured[:1], flow[:1], angle[:1], MODEL)
+    with pytest.raises(InvalidInputError, match="NaN"):
+        estimate(np.where(measured > 0, np.nan, measured), flow, angle, MODEL)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: NoiseLevels(-1.0, 0.0, 1.0),
+        lambda: NoiseLevels(0.0, 0.0, 0.0),
+        lambda: Prior(0.0, 1.0, -1e9, 1e8),
+        lambda: dataclasses.replace(MODEL, time_step=0.0),
+        lambda: dataclasses.replace(MODEL, angle_gain=float("inf")),
+    ],
+)
+def test_bad_models_are_refused(make):
+    with pytest.raises(InvalidInputError, match="expected"):
+        make()

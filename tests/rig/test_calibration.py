@@ -1,0 +1,61 @@
+"""The calibration file against the code."""
+
+import numpy as np
+import pytest
+
+from softgrip.provenance import Provenance, data_file
+from softgrip.rig import calibration_table
+from softgrip.rig.calibration import OPERATING_ANGLE, design_1, small_signal_poles
+
+ENTRIES = calibration_table.entries()
+
+
+def test_file_is_what_the_code_gives():
+    kept = calibration_table.read()
+    assert len(kept) == len(ENTRIES)
+    for old, new in zip(kept, ENTRIES, strict=True):
+        assert (old.quantity, old.printed, old.parameter) == (
+            new.quantity, new.printed, new.parameter,
+        )  # fmt: skip
+        # The file holds six digits.
+        for name in ("value", "rig", "residual"):
+            assert getattr(old, name) == pytest.approx(
+                getattr(new, name), rel=1e-5, abs=1e-8, nan_ok=True
+            )
+
+
+def test_file_says_that_it_is_simulated():
+    file = data_file(calibration_table.FILE)
+    assert (file.provenance, file.source) == (Provenance.SIMULATED, calibration_table.COMMAND)
+
+
+def test_written_file_is_the_kept_one(tmp_path):
+    made = calibration_table.write(tmp_path / "rig.csv")
+    assert made.read_text() == data_file(calibration_table.FILE).path.read_text()
+
+
+@pytest.mark.parametrize("entry", ENTRIES, ids=lambda e: e.quantity)
+def test_each_line_is_of_its_kind(entry):
+    if entry.use == "assumed":
+        assert not entry.printed
+        assert np.isnan(entry.residual)
+    else:
+        assert entry.residual == pytest.approx(entry.rig - float(entry.printed), abs=1e-8)
+    if entry.use == "calibrated":
+        # One deviation of damping and of stiffness is not quite the linear estimate that set it.
+        assert abs(entry.residual) < 0.05 * float(entry.printed)
+
+
+@pytest.mark.parametrize("entry", [e for e in ENTRIES if e.parameter], ids=lambda e: e.parameter)
+def test_value_is_the_one_that_the_rig_runs_on(entry):
+    group, _, name = entry.parameter.partition(".")
+    name, _, index = name.partition("[")
+    value = getattr(getattr(design_1(), group), name)
+    assert entry.value == (value[int(index[:-1])] if index else value)
+
+
+def test_pole_is_near_the_printed_one():
+    # Section 3.4 prints -1.99 +- j 2.04, from the same frequency and damping ratio rounded.
+    pole = small_signal_poles(design_1().finger, OPERATING_ANGLE)[0]
+    assert pole.real == pytest.approx(-1.99, abs=0.02)
+    assert abs(pole.imag) == pytest.approx(2.04, abs=0.01)

@@ -1,0 +1,39 @@
+"""The stepper motor and the plunger."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softgrip.rig import motor
+from softgrip.rig.parameters import PumpParameters
+from softgrip.units import REV
+
+PUMP = PumpParameters()
+speeds = st.floats(-8 * REV, 8 * REV)
+within = st.floats(-5 * REV, 5 * REV)
+
+
+@given(start=within, command=speeds, end=st.floats(1e-3, 1.0))
+def test_travel_is_the_integral_of_the_speed(start, command, end):
+    times = np.linspace(0, end, 4001)
+    speed = motor.speed(np.float64(start), np.float64(command), times, PUMP)
+    way = motor.travel(np.float64(start), np.float64(command), np.float64(end), PUMP)
+    # One bend of the speed inside one interval: less than a (h / 2)^2 / 2 is missed.
+    missed = PUMP.advance * PUMP.acceleration_limit * (end / 4000) ** 2
+    assert way == pytest.approx(PUMP.advance * np.trapezoid(speed, times), abs=missed + 1e-12)
+
+
+@given(start=within, command=speeds)
+def test_limits_of_speed_and_acceleration_hold(start, command):
+    times = np.linspace(0, 1, 201)
+    speed = motor.speed(np.float64(start), np.float64(command), times, PUMP)
+    assert abs(speed).max() <= PUMP.speed_limit * (1 + 1e-12)
+    assert abs(np.diff(speed)).max() <= PUMP.acceleration_limit * times[1] * (1 + 1e-9)
+    assert speed[-1] == pytest.approx(np.clip(command, -PUMP.speed_limit, PUMP.speed_limit))
+
+
+def test_one_turn_moves_the_plunger_by_the_lead():
+    fast = PumpParameters(acceleration_limit=1e12)
+    way = motor.travel(np.float64(0), np.float64(REV), np.float64(1.0), fast)
+    assert way == pytest.approx(fast.lead)
