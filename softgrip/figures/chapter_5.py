@@ -1,18 +1,14 @@
-"""Figures and tables of Chapter 5."""
+"""Figures of Chapter 5."""
 
-from collections.abc import Callable
 from functools import cache
-from math import inf
 from typing import Any
 
 import numpy as np
-import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 from scipy.stats import spearmanr
-from sklearn.dummy import DummyRegressor
 
-from softgrip.figures.exhibit import figure, table
+from softgrip.figures.exhibit import figure
 from softgrip.figures.style import (
     GREY,
     LUDWICK,
@@ -21,24 +17,16 @@ from softgrip.figures.style import (
     PRINTED,
     VERMILION,
     WIDTH,
-    still,
-    style,
 )
-from softgrip.ledger import Entry, ledger
 from softgrip.materials import ludwick, tensile, yeoh
 from softgrip.materials.arrays import Floats
 from softgrip.materials.facts import facts
 from softgrip.materials.fitting import (
     LONGEST_STRAINS,
     Fitting,
-    bootstrap_interval,
-    fractional_power,
     kept,
-    ranking,
 )
-from softgrip.materials.leave_out import leave_k_out
-from softgrip.materials.new_material import predict_power
-from softgrip.materials.powerlaw import FractionalPowerRegressor
+from softgrip.materials.leave_out import RIVALS, leave_k_out
 from softgrip.materials.table import (
     HELD_OUT,
     Material,
@@ -64,7 +52,7 @@ def _measured(name: str) -> tuple[Floats, Floats] | None:
     return test.strain, test.stress * (1 + test.strain)
 
 
-def _draw_curves(axes: Any, material: Material, power: float) -> None:
+def draw_curves(axes: Any, material: Material, power: float) -> None:
     """Draw true stress over engineering strain: measured, Yeoh, Ludwick with a given n."""
     known = facts()[material.name]
     strain = np.linspace(0, known.peak_strain, 60)
@@ -92,7 +80,7 @@ def figure_5_1() -> Figure:
     drawn = Figure(figsize=(WIDTH, 8.2))
     panels = drawn.subplots(5, 2)
     for axes, material in zip(panels.flat, table_5_1().values(), strict=True):
-        _draw_curves(axes, material, material.fractional_power)
+        draw_curves(axes, material, material.fractional_power)
         axes.set_title(material.name, fontsize=9.5)
         axes.text(0.05, 0.84, f"n = {material.fractional_power:.3f}", transform=axes.transAxes)
         axes.set_ylim(0, 1.1 * (1 + facts()[material.name].peak_strain)
@@ -170,13 +158,6 @@ def figure_5_a() -> Figure:
     return drawn
 
 
-MODELS: dict[str, Callable[[], Any]] = {
-    "Eq. (5.8)": FractionalPowerRegressor,
-    "with a constant": lambda: FractionalPowerRegressor(fit_intercept=True),
-    "mean of the others": DummyRegressor,
-}
-
-
 @figure(
     "5.B",
     caption="Each of the ten materials predicted by Eq. (5.8) fitted to the other nine, and by the "
@@ -193,7 +174,7 @@ def figure_5_b() -> Figure:
     axes.plot([0.8, 2.8], [0.8, 2.8], color=GREY, lw=1, label="exact")
     styles = (("Eq. (5.8)", LUDWICK, "o"), ("mean of the others", VERMILION, "_"))
     for name, colour, marker in styles:
-        found = leave_k_out(1, model=MODELS[name]()).predictions
+        found = leave_k_out(1, model=RIVALS[name]()).predictions
         axes.scatter([p.printed for p in found], [p.predicted for p in found], color=colour,
                      marker=marker, s=60, label=name)  # fmt: skip
     worst = leave_k_out(1).worst
@@ -201,167 +182,4 @@ def figure_5_b() -> Figure:
                   textcoords="offset points", fontsize=9.5)  # fmt: skip
     axes.set(xlabel="printed n", ylabel="predicted n", xlim=(1.4, 2.65), ylim=(0.7, 2.75))
     axes.legend(loc="lower right")
-    return drawn
-
-
-@table(
-    "5.1",
-    caption="The ten elastomers: the fractional power n as printed and as fitted to the public "
-    "tensile tests (true stress, strains up to 600 %, E held); modulus E (MPa) as printed beside "
-    "the tests' stress at 100 % strain; viscosity (Pa s); strength (MPa) as printed beside the "
-    "tests' largest stress.",
-    provenance=Provenance.PUBLIC,
-    data=(TABLE, FITS, FACTS),
-)
-def table_5_1_beside_tests() -> pd.DataFrame:
-    """Tabulate the ten materials beside what their tensile tests give."""
-    rows = []
-    for material in table_5_1().values():
-        known = facts()[material.name]
-        interval = "no test"
-        if tensile.available():
-            low, high = bootstrap_interval(tensile.load(material.name), BEST)
-            interval = f"{low:.2f} to {high:.2f}"
-        rows.append(
-            {
-                "material": material.name,
-                "n printed": f"{material.fractional_power:.3f}",
-                "n fitted": f"{fractional_power(material.name, BEST):.3f}",
-                "95 %": interval,
-                "verdict": _verdicts()["fractional power n of " + material.name].verdict,
-                "E": f"{material.young_modulus / MPa:.2f}",
-                "at 100 %": f"{known.hundred_percent_modulus / MPa:.3f}",
-                "viscosity": f"{material.mixed_viscosity:g}",
-                "strength": f"{material.tensile_strength / MPa:.2f}",
-                "largest": f"{known.peak_stress / MPa:.2f}",
-            }
-        )
-    return pd.DataFrame(rows)
-
-
-def _verdicts() -> dict[str, Entry]:
-    return {entry.claim.what: entry for entry in ledger(5)}
-
-
-@table(
-    "5.2",
-    caption="The two held-out materials: true and estimated fractional power, and the error that "
-    "the summary states. The recomputed true value is that of Table 5.1.",
-    provenance=Provenance.PRINTED,
-    data=(TABLE,),
-)
-def table_5_2() -> pd.DataFrame:
-    """Tabulate what is printed of the two held-out materials, and what comes of it."""
-    return pd.DataFrame(
-        {
-            "what": entry.claim.what,
-            "printed": f"{'' if entry.claim.relation == '=' else '< '}{entry.claim.printed}",
-            "recomputed": f"{entry.recomputed:.4g}",
-            "verdict": entry.verdict,
-        }
-        for entry in ledger(5)
-        if entry.claim.where in ("Table 5.2", "Section 5.5")
-    )
-
-
-@table(
-    "5.A",
-    caption="Ways to read n from a curve, held against the printed column: the five best of 96, "
-    "and the same choices as the best with one of them changed.",
-    provenance=Provenance.PUBLIC,
-    data=(FITS, TABLE),
-)
-def table_5_a() -> pd.DataFrame:
-    """Tabulate the best ways of fitting and their neighbours."""
-    scores = ranking()
-    neighbours = [
-        Fitting(stress="engineering"),
-        Fitting(loss="log"),
-        Fitting(longest_strain=inf),
-        Fitting(modulus="free"),
-    ]
-    chosen = scores[:5] + [s for s in scores if s.fitting in neighbours and s not in scores[:5]]
-    return pd.DataFrame(
-        {
-            "stress": s.fitting.stress,
-            "least squares of": s.fitting.loss,
-            "strains up to": "peak" if s.fitting.longest_strain == inf
-            else f"{s.fitting.longest_strain:.0%}",
-            "E": s.fitting.modulus,
-            "come out": s.come_out,
-            "within 2 %": s.within_2_percent,
-            "within 5 %": s.within_5_percent,
-            "median error": f"{s.median_error:.1%}" if s.median_error < inf else "no fit",
-        }
-        for s in chosen
-    )  # fmt: skip
-
-
-@table(
-    "5.B",
-    caption="Errors of n when materials are predicted that the fit has not seen: each one, and "
-    "each two, of the ten held out in turn.",
-    provenance=Provenance.PRINTED,
-    data=(TABLE,),
-)
-def table_5_b() -> pd.DataFrame:
-    """Tabulate leave-one-out and leave-two-out errors of three models."""
-    rows = []
-    for name, model in MODELS.items():
-        for k in (1, 2):
-            found = leave_k_out(k, model=model())
-            errors = [abs(p.error / p.printed) for p in found.predictions]
-            rows.append(
-                {
-                    "model": name,
-                    "held out": k,
-                    "RMS error of n": f"{found.rms_error:.3f}",
-                    "within 10 %": f"{np.mean(np.array(errors) < 0.1):.0%}",
-                    "worst": f"{max(errors):.0%} ({found.worst.name})",
-                }
-            )
-    return pd.DataFrame(rows)
-
-
-def draw_new_material(E: float, MV: float, TS: float) -> Figure:
-    """Draw the predicted n of a new material among the ten known ones.
-
-    Parameters
-    ----------
-    E, TS
-        Young's modulus (100 % modulus) and tensile strength, MPa.
-    MV
-        Mixed viscosity, Pa s.
-    """
-    found = predict_power(E * MPa, MV, TS * MPa)
-    power = found.power
-    with style():
-        drawn, axes = still(3.0, left=0.34)
-        axes.axvspan(power.low, power.high, color=LUDWICK, alpha=0.15, lw=0)
-        axes.axvline(power.value, color=LUDWICK, lw=2.4)
-        ranked = sorted(table_5_1().values(), key=lambda m: m.fractional_power)
-        axes.scatter([m.fractional_power for m in ranked], range(10), color=MEASURED, zorder=3)
-        axes.set_yticks(range(10), [m.name for m in ranked], fontsize=8.5)
-        title = f"n = {power.value:.2f}, 95 %: {power.low:.2f} to {power.high:.2f}"
-        if found.extrapolates:
-            title += "  (extrapolated)"
-        axes.set(xlim=(0, 4), xlabel="fractional power n", title=title)
-    return drawn
-
-
-def draw_law(material: str, n: float) -> Figure:
-    """Draw Ludwick's law with a chosen n over the curve of a material."""
-    chosen = table_5_1()[material]
-    known = facts()[material]
-    with style():
-        drawn, axes = still(3.2)
-        _draw_curves(axes, chosen, n)
-        axes.get_lines()[-1].set_label(f"Ludwick, n = {n:.2f}")
-        axes.set(
-            xlabel="engineering strain",
-            ylabel="true stress (MPa)",
-            title=f"{material}, printed n = {chosen.fractional_power:.3f}",
-            ylim=(0, 1.15 * (1 + known.peak_strain) * known.peak_stress / MPa),
-        )
-        axes.legend(loc="upper left")
     return drawn

@@ -95,6 +95,11 @@ def table(
     return _register("table", number, caption, "", data, provenance)
 
 
+def _register_chapter(chapter: str) -> None:
+    import_module(f"softgrip.figures.chapter_{chapter}")
+    import_module(f"softgrip.figures.tables_{chapter}")
+
+
 def exhibit(title: str) -> Exhibit:
     """Find a figure or table by its title, importing its chapter's file only.
 
@@ -111,7 +116,7 @@ def exhibit(title: str) -> Exhibit:
     kind, _, number = title.lower().partition(" ")
     chapter = number.partition(".")[0]
     if chapter in CHAPTERS:
-        import_module(f"softgrip.figures.chapter_{chapter}")
+        _register_chapter(chapter)
     for found in EXHIBITS.values():
         if (found.kind, found.number.lower()) == (kind, number):
             return found
@@ -121,5 +126,5 @@ def exhibit(title: str) -> Exhibit:
 def exhibits() -> list[Exhibit]:
     """Return every figure and table of every chapter."""
     for chapter in CHAPTERS:
-        import_module(f"softgrip.figures.chapter_{chapter}")
+        _register_chapter(chapter)
     return list(EXHIBITS.values())

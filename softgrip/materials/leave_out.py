@@ -1,16 +1,27 @@
 """How the power law predicts materials that it has not seen."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from sklearn.base import clone
+from sklearn.dummy import DummyRegressor
 from sklearn.model_selection import LeavePOut
 
 from softgrip.errors import InvalidInputError
 from softgrip.materials.powerlaw import FractionalPowerRegressor
 from softgrip.materials.table import Material, fractional_powers, properties, table_5_1
+
+RIVALS: Mapping[str, Callable[[], Any]] = MappingProxyType(
+    {
+        "Eq. (5.8)": FractionalPowerRegressor,
+        "with a constant": lambda: FractionalPowerRegressor(fit_intercept=True),
+        "mean of the others": DummyRegressor,
+    }
+)
+"""Models that are worth comparing: the printed one, one with a constant, and none at all."""
 
 
 @dataclass(frozen=True)

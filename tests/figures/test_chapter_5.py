@@ -4,8 +4,8 @@ import pytest
 
 from softgrip.errors import InvalidInputError
 from softgrip.explore.frames import render
-from softgrip.figures.chapter_5 import draw_law, draw_new_material
 from softgrip.figures.save import numbers
+from softgrip.figures.widgets_5 import draw_law, draw_new_material
 from softgrip.materials.new_material import predict_power
 
 

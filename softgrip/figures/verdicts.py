@@ -1,0 +1,98 @@
+"""Verdicts as a page shows them: as small labels, as the ledger's table, as counts."""
+
+import html
+from collections import Counter
+from dataclasses import dataclass
+from itertools import groupby
+
+from softgrip.ledger import Entry, Verdict, ledger
+from softgrip.ledger.counts import counts_table
+
+MARKS = {
+    Verdict.REPRODUCED: "✓",
+    Verdict.CLOSE: "≈",
+    Verdict.ASSUMED: "◇",
+    Verdict.DIFFERS: "✗",
+    Verdict.MEASURED: "◉",
+    Verdict.CITED: "❝",
+}
+"""A verdict is told by mark and word, never by colour alone."""
+
+
+def chip(verdict: Verdict, text: str) -> str:
+    """Return a verdict as a small coloured label."""
+    return f'<span class="verdict {verdict}">{MARKS[verdict]} {html.escape(text)}</span>'
+
+
+def _number(value: float | None) -> str:
+    return "" if value is None else f"{value:.4g}"
+
+
+def _remarks(entry: Entry) -> str:
+    claim = entry.claim
+    parts = [claim.assumptions and f"Assumed: {claim.assumptions}", claim.note]
+    if claim.band:
+        values = [value for _, value in entry.band if value == value]
+        parts.append(f"{claim.band.what}: {_number(min(values))} to {_number(max(values))}.")
+    text = " ".join(filter(None, parts))
+    if not text:
+        return ""
+    return f"<details><summary>remarks</summary>{html.escape(text)}</details>"
+
+
+def _row(entry: Entry) -> str:
+    claim = entry.claim
+    sign = "" if claim.relation == "=" else f"{claim.relation} "
+    unit = "" if claim.unit == "1" else f" {claim.unit}"
+    return (
+        f'<tr id="claim-{claim.id}"><td>{html.escape(claim.what)}{_remarks(entry)}</td>'
+        f"<td class='number'>{html.escape(sign + claim.printed + unit)}</td>"
+        f"<td class='number'>{_number(entry.recomputed)}</td>"
+        f"<td>{chip(entry.verdict, entry.verdict)}</td></tr>"
+    )
+
+
+def verdict_table(entries: list[Entry]) -> str:
+    """Return entries as an HTML table, place by place: printed, recomputed, verdict, remarks."""
+    head = "".join(
+        f'<th scope="col">{name}</th>' for name in ("what", "printed", "recomputed", "verdict")
+    )
+    bodies = "".join(
+        f'<tbody><tr><th colspan="4" scope="rowgroup">{html.escape(where)}</th></tr>'
+        f"{''.join(map(_row, found))}</tbody>"
+        for where, found in groupby(entries, key=lambda entry: entry.claim.where)
+    )
+    return f'<table class="ledger"><thead><tr>{head}</tr></thead>{bodies}</table>'
+
+
+@dataclass(frozen=True)
+class Html:
+    """A piece of HTML that a notebook displays."""
+
+    markup: str
+
+    def _repr_html_(self) -> str:
+        return self.markup
+
+
+def show_verdicts(chapter: int | None = None, *, where: tuple[str, ...] = ()) -> Html:
+    """Show the ledger of a chapter (or all), or of the places that are named."""
+    entries = [e for e in ledger(chapter) if not where or e.claim.where in where]
+    count = Counter(entry.verdict for entry in entries)
+    chips = " ".join(chip(v, f"{count[v]} {v}") for v in Verdict if count[v])
+    return Html(f'<p class="counts">{chips}</p>{verdict_table(entries)}')
+
+
+@dataclass(frozen=True)
+class Markdown:
+    """A piece of Markdown that a notebook displays."""
+
+    text: str
+
+    def _repr_markdown_(self) -> str:
+        return self.text
+
+
+def show_counts() -> Markdown:
+    """Show how the verdicts stand, by chapter."""
+    return Markdown(counts_table(ledger()))

@@ -1,0 +1,157 @@
+"""The three pressure models of Chapter 4 held against a log of a push, whichever rig made it."""
+
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from softgrip.errors import DataFileError
+from softgrip.materials.arrays import Floats
+from softgrip.provenance import data_file
+from softgrip.pump import pressure as law
+from softgrip.pump.capacity import CapacityEstimate, estimate
+from softgrip.pump.elastance import ElastanceModel, NoiseLevels, Prior
+from softgrip.pump.flow import Pump
+from softgrip.pump.noise import NoiseEstimate, estimate_noise
+from softgrip.rig.log_reader import read_log
+from softgrip.rig.log_schema import Log
+from softgrip.units import MPa
+
+LOW = 0.03 * MPa
+"""Gauge pressure, Pa, below which the constant capacity is fitted."""
+HIGH = 0.10 * MPa
+"""Gauge pressure, Pa, above which Section 4.3 states the errors."""
+FIRST_GUESS = NoiseLevels(pressure_step=50.0, elastance_step=1e6, sensor=700.0)
+REFERENCE = "simulated/push-a.csv"
+"""The record whose noise levels are used for all: those of one sensor and one finger."""
+
+
+@dataclass(frozen=True)
+class PressureComparison:
+    """A push, measured and as three models have it.
+
+    Attributes
+    ----------
+    time
+        s, shape (N,).
+    measured, constant, modified, filtered
+        Gauge pressure, Pa, shape (N,): measured; by Eq. (4.5); by Eq. (4.7); and by Eq. (4.5)
+        with the capacity that the filter holds at each sample, integrated without correction.
+    capacity
+        Of the constant model, m^3/Pa.
+    growth
+        c of the modified model, 1/Pa.
+    estimated
+        What the filter holds.
+    """
+
+    time: Floats
+    measured: Floats
+    constant: Floats
+    modified: Floats
+    filtered: Floats
+    capacity: float
+    growth: float
+    estimated: CapacityEstimate
+
+    def error(self, model: Floats) -> float:
+        """Return (model - measured) / measured where its size is largest above `HIGH`."""
+        high = self.measured > HIGH
+        relative = (model[high] - self.measured[high]) / self.measured[high]
+        return float(relative[np.argmax(np.abs(relative))])
+
+
+def pump_of(log: Log, path: Path) -> Pump:
+    """Read area and lead, with their units, from the header of a log.
+
+    Raises
+    ------
+    DataFileError
+        If the header lacks one of them.
+    """
+    try:
+        area, lead = (float(log.header.notes[key].split()[0]) for key in ("area", "lead"))
+    except (KeyError, ValueError):
+        raise DataFileError(
+            path, expected="'# area: ... m^2' and '# lead: ... m' in the header", got="none"
+        ) from None
+    return Pump(area, lead)
+
+
+def _fit(swept: Floats, pressure: Floats) -> tuple[float, float]:
+    """Return C of Eq. (4.5), fitted below `LOW`, and c of Eq. (4.7), fitted to the whole push."""
+    low = pressure < LOW
+    capacity = float(swept[low] @ swept[low] / (swept[low] @ pressure[low]))
+    # The capacity may fall, but not to zero within the push.
+    largest = swept[-1] / capacity
+
+    def misfit(x: Floats) -> Floats:
+        growth = float(x[0]) / largest
+        return (law.modified_pressure(swept, 1.0, capacity, growth) - pressure) / largest
+
+    found = least_squares(misfit, [-0.5], bounds=(-0.999, 10.0))
+    return capacity, float(found.x[0]) / largest
+
+
+@cache
+def reference_noise() -> NoiseEstimate:
+    """Estimate the filter's noise levels from `REFERENCE`; takes some seconds, once."""
+    log = read_log(data_file(REFERENCE).path)
+    pump = pump_of(log, data_file(REFERENCE).path)
+    flow = pump.displacement * log["command"]
+    swept = np.cumsum(flow) * log.header.period
+    capacity, _ = _fit(swept, log["pressure"])
+    model = ElastanceModel(log.header.period, FIRST_GUESS, _prior(capacity))
+    return estimate_noise(log["pressure"], flow, log["angle"], model)
+
+
+def _prior(capacity: float) -> Prior:
+    # A capacity fitted at low pressure is taken to be good to about a third.
+    return Prior(0.0, 1e3, 1 / capacity, 0.3 / capacity)
+
+
+def compare(path: Path | str, *, noise_factor: float = 1.0) -> PressureComparison:
+    """Hold the three models against a log of a push at one motor speed.
+
+    Parameters
+    ----------
+    path
+        A log in the one schema, with area and lead of the pump in its header.
+    noise_factor
+        Multiplies the filter's elastance noise, > 0: above 1 it follows faster and noisier.
+
+    Raises
+    ------
+    DataFileError
+        If the log cannot be read, or does not name its pump, or holds no pressure below `LOW`
+        and above `HIGH`.
+    """
+    log = read_log(path)
+    pump = pump_of(log, Path(path))
+    time, measured = log["time"], log["pressure"]
+    if not (measured.min() < LOW and measured.max() > HIGH):
+        raise DataFileError(
+            path,
+            expected=f"a push from below {LOW / MPa:g} to above {HIGH / MPa:g} MPa",
+            got=f"{measured.min() / MPa:.3f} to {measured.max() / MPa:.3f} MPa",
+        )
+    flow = pump.displacement * log["command"]
+    swept = np.cumsum(flow) * log.header.period
+    capacity, growth = _fit(swept, measured)
+    levels = reference_noise().levels
+    noise = NoiseLevels(levels.pressure_step, levels.elastance_step * noise_factor, levels.sensor)
+    model = ElastanceModel(log.header.period, noise, _prior(capacity))
+    estimated = estimate(measured, flow, log["angle"], model)
+    steps = flow[:-1] * log.header.period * estimated.elastance[:-1]
+    return PressureComparison(
+        time,
+        measured,
+        constant=swept / capacity,
+        modified=law.modified_pressure(swept, 1.0, capacity, growth),
+        filtered=measured[0] + np.concatenate([[0.0], np.cumsum(steps)]),
+        capacity=capacity,
+        growth=growth,
+        estimated=estimated,
+    )
