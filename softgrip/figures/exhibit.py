@@ -9,7 +9,7 @@ from softgrip.errors import UnknownNameError
 from softgrip.provenance import DataFile, Provenance, data_file
 
 Kind = Literal["figure", "table"]
-Make = TypeVar("Make", bound=Callable[[], object])
+Make = TypeVar("Make", bound=Callable[..., object])
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Exhibit:
     """The dissertation's number, such as ``5.1``; letters (``5.A``) for those of our own."""
     caption: str
     alt: str
-    make: Callable[[], object]
+    make: Callable[..., object]
     data: tuple[DataFile, ...]
     provenance: Provenance
     """Class of what is shown; the data files have their own."""
@@ -53,7 +53,7 @@ class Exhibit:
 
 
 EXHIBITS: dict[tuple[Kind, str], Exhibit] = {}
-CHAPTERS = ("5",)
+CHAPTERS = ("4", "5")
 
 
 def _register(

@@ -47,7 +47,8 @@ def _row(entry: Entry) -> str:
     return (
         f'<tr id="claim-{claim.id}"><td>{html.escape(claim.what)}{_remarks(entry)}</td>'
         f"<td class='number'>{html.escape(sign + claim.printed + unit)}</td>"
-        f"<td class='number'>{_number(entry.recomputed)}</td>"
+        f"<td class='number'>{_number(entry.recomputed)}"
+        f"{'<br><small>simulated</small>' if entry.simulated else ''}</td>"
         f"<td>{chip(entry.verdict, entry.verdict)}</td></tr>"
     )
 

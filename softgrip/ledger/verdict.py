@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from importlib import import_module
-from typing import Any
+from typing import Any, TypeVar
 
 from softgrip.errors import DataFileError
 from softgrip.ledger.claims import Claim, read_claims
@@ -38,6 +38,8 @@ class Entry:
     recomputed: float | None
     verdict: Verdict
     under_assumption: float | None = None
+    simulated: bool = False
+    """Whether the recomputed value is one of the simulated rig."""
     band: tuple[tuple[Any, float], ...] = ()
     """(input, value) over the declared range of an unstated input."""
 
@@ -54,6 +56,7 @@ class Entry:
             "relation": claim.relation,
             "printed": claim.printed,
             "recomputed": self.recomputed,
+            "simulated": self.simulated,
             "verdict": str(self.verdict),
             "assumptions": claim.assumptions,
             "under_assumption": self.under_assumption,
@@ -99,6 +102,15 @@ def _from_inputs(claim: Claim, stated: float | None, assumed: float | None) -> V
     return Verdict.DIFFERS
 
 
+Function = TypeVar("Function", bound=Callable[..., float])
+
+
+def simulated(function: Function) -> Function:
+    """Mark a recomputation as simulated: it may stand beside a measurement, and nothing else."""
+    function.simulated = True  # type: ignore[attr-defined]
+    return function
+
+
 def _function(claim: Claim) -> Callable[..., float]:
     module = import_module(f"softgrip.ledger.chapter_{claim.chapter}")
     try:
@@ -107,6 +119,10 @@ def _function(claim: Claim) -> Callable[..., float]:
         raise DataFileError(
             claim.id, expected=f"a function of {module.__name__}", got=claim.function
         ) from None
+    if getattr(found, "simulated", False) and claim.basis != "measurement":
+        raise DataFileError(
+            claim.id, expected="a measurement, if it is simulated", got=f"basis {claim.basis!r}"
+        )
     return found
 
 
@@ -142,7 +158,7 @@ def judge(claim: Claim) -> Entry:
     else:
         verdict = _from_inputs(claim, stated, assumed)
     recomputed = assumed if stated is None or verdict is Verdict.ASSUMED else stated
-    return Entry(claim, recomputed, verdict, assumed, band)
+    return Entry(claim, recomputed, verdict, assumed, getattr(function, "simulated", False), band)
 
 
 def ledger(chapter: int | None = None) -> list[Entry]:

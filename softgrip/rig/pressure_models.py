@@ -9,7 +9,7 @@ from scipy.optimize import least_squares
 
 from softgrip.errors import DataFileError
 from softgrip.materials.arrays import Floats
-from softgrip.provenance import data_file
+from softgrip.provenance import Provenance, data_file
 from softgrip.pump import pressure as law
 from softgrip.pump.capacity import CapacityEstimate, estimate
 from softgrip.pump.elastance import ElastanceModel, NoiseLevels, Prior
@@ -45,6 +45,8 @@ class PressureComparison:
         c of the modified model, 1/Pa.
     estimated
         What the filter holds.
+    provenance
+        Of the log.
     """
 
     time: Floats
@@ -55,6 +57,7 @@ class PressureComparison:
     capacity: float
     growth: float
     estimated: CapacityEstimate
+    provenance: Provenance
 
     def error(self, model: Floats) -> float:
         """Return (model - measured) / measured where its size is largest above `HIGH`."""
@@ -89,7 +92,8 @@ def _fit(swept: Floats, pressure: Floats) -> tuple[float, float]:
 
     def misfit(x: Floats) -> Floats:
         growth = float(x[0]) / largest
-        return (law.modified_pressure(swept, 1.0, capacity, growth) - pressure) / largest
+        result: Floats = (law.modified_pressure(swept, 1.0, capacity, growth) - pressure) / largest
+        return result
 
     found = least_squares(misfit, [-0.5], bounds=(-0.999, 10.0))
     return capacity, float(found.x[0]) / largest
@@ -103,12 +107,12 @@ def reference_noise() -> NoiseEstimate:
     flow = pump.displacement * log["command"]
     swept = np.cumsum(flow) * log.header.period
     capacity, _ = _fit(swept, log["pressure"])
-    model = ElastanceModel(log.header.period, FIRST_GUESS, _prior(capacity))
+    model = ElastanceModel(log.header.period, FIRST_GUESS, prior(capacity))
     return estimate_noise(log["pressure"], flow, log["angle"], model)
 
 
-def _prior(capacity: float) -> Prior:
-    # A capacity fitted at low pressure is taken to be good to about a third.
+def prior(capacity: float) -> Prior:
+    """Return what is known at rest: a capacity in m^3/Pa, taken to be good to about a third."""
     return Prior(0.0, 1e3, 1 / capacity, 0.3 / capacity)
 
 
@@ -142,7 +146,7 @@ def compare(path: Path | str, *, noise_factor: float = 1.0) -> PressureCompariso
     capacity, growth = _fit(swept, measured)
     levels = reference_noise().levels
     noise = NoiseLevels(levels.pressure_step, levels.elastance_step * noise_factor, levels.sensor)
-    model = ElastanceModel(log.header.period, noise, _prior(capacity))
+    model = ElastanceModel(log.header.period, noise, prior(capacity))
     estimated = estimate(measured, flow, log["angle"], model)
     steps = flow[:-1] * log.header.period * estimated.elastance[:-1]
     return PressureComparison(
@@ -154,4 +158,5 @@ def compare(path: Path | str, *, noise_factor: float = 1.0) -> PressureCompariso
         capacity=capacity,
         growth=growth,
         estimated=estimated,
+        provenance=log.header.provenance,
     )

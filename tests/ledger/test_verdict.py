@@ -1,5 +1,7 @@
 """Verdicts follow by rule from printed string, stated inputs and named assumptions."""
 
+from types import SimpleNamespace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -8,6 +10,8 @@ from softgrip.errors import DataFileError
 from softgrip.ledger import verdict as module
 from softgrip.ledger.claims import Claim
 from softgrip.ledger.verdict import Verdict, comes_out, decimals, judge
+
+FIND = module._function
 
 
 def claim(printed="2.37", basis="inputs", **fields):
@@ -72,6 +76,15 @@ def test_citations_and_measurements_keep_their_value_beside_the_print(basis, exp
 def test_bounds(relation, x, expected):
     got = judge(claim(printed="10", relation=relation, arguments={"x": x}))
     assert got.verdict is expected
+
+
+def test_simulated_value_stands_beside_a_measurement_and_nothing_else(monkeypatch):
+    monkeypatch.setattr(module, "_function", FIND)
+    chapter = SimpleNamespace(__name__="chapter", value=module.simulated(lambda x: x))
+    monkeypatch.setattr(module, "import_module", lambda name: chapter)
+    assert judge(claim(basis="measurement")).simulated
+    with pytest.raises(DataFileError, match="a measurement, if it is simulated"):
+        judge(claim())
 
 
 def test_claim_that_could_be_recomputed_but_names_no_function_is_an_error():

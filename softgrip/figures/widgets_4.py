@@ -1,0 +1,99 @@
+"""What the sliders of Chapter 4 draw."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from softgrip.figures.chapter_4 import GAS_VOLUME, simulated
+from softgrip.figures.style import GREY, LINEAR, LUDWICK, MEASURED, VERMILION, still, style
+from softgrip.pump.finger import Finger
+from softgrip.pump.flow import TABLE_4_1, Pump, flow
+from softgrip.pump.gas import ATMOSPHERE, capacity, closed_volume_pressure
+from softgrip.pump.pressure import pressure
+from softgrip.pump.sizing import sizings
+from softgrip.rig.pressure_models import compare
+from softgrip.units import ML, MM, REV, MPa
+
+AREAS = dict(zip(("60 mL", "200 mL"), TABLE_4_1["area"], strict=True))
+
+
+def draw_pump(syringe: str, lead: float, speed: float) -> Figure:
+    """Draw the pressure of a pump by Eq. (4.5) and by the exact gas law.
+
+    Parameters
+    ----------
+    syringe
+        "60 mL" or "200 mL".
+    lead
+        mm.
+    speed
+        Motor speed, rev/s.
+    """
+    pushed = flow(speed * REV, Pump(AREAS[syringe], lead * MM))
+    # The plunger stops when it has pushed 55 mL: what a 60 mL syringe holds, less a rest.
+    time = np.linspace(0, min(20.0, 55 * ML / pushed), 80)
+    linear = pressure(time, pushed, capacity(ATMOSPHERE, GAS_VOLUME))
+    exact = closed_volume_pressure(pushed * time, GAS_VOLUME) - ATMOSPHERE
+    with style():
+        drawn, axes = still(3.0)
+        axes.plot(time, exact / MPa, color=MEASURED, label="gas law, 90 mL closed")
+        axes.plot(time, linear / MPa, color=LINEAR, ls="--", label="Eq. (4.5), C constant")
+        axes.axhline(0.15, color=GREY, lw=1, ls=":")
+        axes.set(xlabel="time (s)", ylabel="pressure (MPa)", xlim=(0, 20), ylim=(0, 0.2))
+        axes.set_title(f"{pushed / ML:.1f} mL/s")
+        axes.legend(loc="lower right")
+    return drawn
+
+
+def draw_filter(noise: float) -> Figure:
+    """Draw what the filter holds of a simulated push, with its capacity noise scaled.
+
+    Parameters
+    ----------
+    noise
+        Factor on the estimated noise of the elastance.
+    """
+    found = compare(simulated("push-a"), noise_factor=noise)
+    seen, std = found.estimated.capacity, found.estimated.capacity_std
+    unit = ML / MPa
+    with style():
+        drawn, axes = still(3.0)
+        axes.fill_between(found.time, (seen - 2 * std) / unit, (seen + 2 * std) / unit,
+                          color=LUDWICK, alpha=0.2, lw=0)  # fmt: skip
+        axes.plot(found.time, seen / unit, color=LUDWICK, label="filter, simulated push")
+        axes.axhline(found.capacity / unit, color=LINEAR, ls="--", label="constant")
+        error = 100 * found.error(found.filtered)
+        axes.set(xlabel="time (s)", ylabel="capacity (mL/MPa)", ylim=(0, 2000))
+        axes.set_title(f"largest error above 0.10 MPa: {error:+.0f} %")
+        axes.legend(loc="upper right")
+    return drawn
+
+
+def draw_sizing(pressure: float, volume: float, rise: float) -> Figure:
+    """Draw the torque that each combination of parts has over what it needs.
+
+    Parameters
+    ----------
+    pressure
+        Wanted gauge pressure, MPa.
+    volume
+        Of the finger at rest, mL; at pressure it holds a quarter more.
+    rise
+        Rise time, s.
+    """
+    finger = Finger(pressure * MPa, volume * ML, 1.25 * volume * ML, 2 * ML, rise)
+    judged = sizings(finger)[::-1]
+    names = [
+        f"{s.syringe.name}, {s.screw.name}, {s.motor.name.removeprefix('NEMA 17, ')}"
+        for s in judged
+    ]
+    with style():
+        drawn, axes = still(3.6, left=0.36)
+        colours = [LUDWICK if s.feasible else VERMILION for s in judged]
+        axes.barh(names, [min(s.margin, 8) for s in judged], color=colours)
+        axes.axvline(1.5, color=GREY, ls="--", lw=1)
+        count = sum(s.feasible for s in judged)
+        axes.set(
+            xlabel="torque over need", xlim=(0, 8), title=f"{count} of {len(judged)} can do it"
+        )
+        axes.tick_params(axis="y", labelsize=8.5)
+    return drawn
