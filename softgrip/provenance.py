@@ -71,6 +71,19 @@ def data_file(name: str) -> DataFile:
     path = data_folder() / name
     if not path.is_file():
         raise InvalidInputError("name", expected=f"a file below {data_folder()}", got=name)
+    return describe(path)
+
+
+def describe(path: Path) -> DataFile:
+    """Read the provenance of any file that states it, such as a log of a reader's own rig.
+
+    Raises
+    ------
+    DataFileError
+        If there is no such file, or its header does not state provenance and source.
+    """
+    if not path.is_file():
+        raise DataFileError(path, expected="a file", got="none")
     header: dict[str, str] = {}
     with path.open(encoding="utf-8") as lines:
         for line in lines:

@@ -71,7 +71,7 @@ def figure_4_3() -> Figure:
 
 @figure(
     "4.4",
-    caption="Pushes of the *simulated* rig against the three models: capacity held constant, "
+    caption="Pushes (those of the book of the *simulated* rig) against three models: capacity held constant, "
     "Eq. (4.5), fitted below 0.03 MPa; capacity that changes with the swept volume, Eq. (4.7), "
     "fitted to the whole push; and the capacity that a Kalman filter holds at each sample. The "
     "models' largest errors above 0.10 MPa are in the titles, in that order.",

@@ -1,12 +1,15 @@
 """What a figure or a table is: its function, and what stands beside it wherever it is shown."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial, update_wrapper
 from importlib import import_module
+from inspect import signature
+from pathlib import Path
 from typing import Literal, TypeVar
 
-from softgrip.errors import UnknownNameError
-from softgrip.provenance import DataFile, Provenance, data_file
+from softgrip.errors import InvalidInputError, UnknownNameError
+from softgrip.provenance import DataFile, Provenance, data_file, describe
 
 Kind = Literal["figure", "table"]
 Make = TypeVar("Make", bound=Callable[..., object])
@@ -121,6 +124,23 @@ def exhibit(title: str) -> Exhibit:
         if (found.kind, found.number.lower()) == (kind, number):
             return found
     raise UnknownNameError("figure or table", title, [found.title for found in EXHIBITS.values()])
+
+
+def with_logs(item: Exhibit, logs: Sequence[Path | str]) -> Exhibit:
+    """Return an exhibit made from other logs, which are then its data and its provenance.
+
+    Raises
+    ------
+    InvalidInputError
+        If the exhibit is not made from logs, or no log is given.
+    """
+    if "logs" not in signature(item.make).parameters or not logs:
+        raise InvalidInputError("logs", expected=f"none for {item.title}", got=[*map(str, logs)])
+    data = tuple(describe(Path(log)) for log in logs)
+    made = partial(item.make, logs=tuple(logs))
+    return replace(
+        item, make=update_wrapper(made, item.make), data=data, provenance=data[0].provenance
+    )
 
 
 def exhibits() -> list[Exhibit]:

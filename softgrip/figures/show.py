@@ -9,6 +9,7 @@ import html
 import os
 import re
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -16,7 +17,7 @@ from typing import Any
 
 import pandas as pd
 
-from softgrip.figures.exhibit import Exhibit, exhibit
+from softgrip.figures.exhibit import Exhibit, exhibit, with_logs
 from softgrip.figures.save import make, save, svg
 from softgrip.figures.verdicts import chip
 from softgrip.ledger import Verdict, ledger
@@ -127,13 +128,17 @@ class Shown:
         return {"text/html": self._html()}
 
 
-def show(title: str) -> Shown:
+def show(title: str, *, logs: Sequence[Path | str] = ()) -> Shown:
     """Make a figure or table and show it with its number, caption and provenance.
 
     Parameters
     ----------
     title
         Such as ``Figure 5.1``.
+    logs
+        Logs of a rig to show in the place of those of the book, by path.
     """
     item = exhibit(title)
+    if logs:
+        item = with_logs(item, logs)
     return Shown(item, *(save(item, FOLDER) if _in_static_book() else make(item)))

@@ -3,7 +3,6 @@
 import html
 from collections import Counter
 from dataclasses import dataclass
-from itertools import groupby
 
 from softgrip.ledger import Entry, Verdict, ledger
 from softgrip.ledger.counts import counts_table
@@ -58,10 +57,13 @@ def verdict_table(entries: list[Entry]) -> str:
     head = "".join(
         f'<th scope="col">{name}</th>' for name in ("what", "printed", "recomputed", "verdict")
     )
+    places: dict[str, list[Entry]] = {}
+    for entry in entries:
+        places.setdefault(entry.claim.where, []).append(entry)
     bodies = "".join(
         f'<tbody><tr><th colspan="4" scope="rowgroup">{html.escape(where)}</th></tr>'
         f"{''.join(map(_row, found))}</tbody>"
-        for where, found in groupby(entries, key=lambda entry: entry.claim.where)
+        for where, found in places.items()
     )
     return f'<table class="ledger"><thead><tr>{head}</tr></thead>{bodies}</table>'
 

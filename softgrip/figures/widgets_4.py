@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MultipleLocator
 
 from softgrip.figures.chapter_4 import GAS_VOLUME, simulated
 from softgrip.figures.style import GREY, LINEAR, LUDWICK, MEASURED, VERMILION, still, style
@@ -40,6 +41,7 @@ def draw_pump(syringe: str, lead: float, speed: float) -> Figure:
         axes.axhline(0.15, color=GREY, lw=1, ls=":")
         axes.set(xlabel="time (s)", ylabel="pressure (MPa)", xlim=(0, 20), ylim=(0, 0.2))
         axes.set_title(f"{pushed / ML:.1f} mL/s")
+        axes.xaxis.set_major_locator(MultipleLocator(5))
         axes.legend(loc="lower right")
     return drawn
 

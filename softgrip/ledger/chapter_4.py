@@ -14,12 +14,19 @@ SETTLING = {"simulated": (5.0, 2.5), "measured": (3.95, 2.38)}
 
 def fastest(name: str) -> float:
     """Return a parameter of the set of Table 4.1 with the largest pressure rate, Eq. (4.5)."""
-    runs = {
-        combination: PumpRun(Pump(combination[0], combination[1]), combination[2]).flow
-        for combination in product(*TABLE_4_1.values())
+    runs = [
+        PumpRun(Pump(area, lead), speed)
+        for area, lead, speed in product(
+            TABLE_4_1["area"], TABLE_4_1["lead"], TABLE_4_1["motor_speed"]
+        )
+    ]
+    best = max(runs, key=lambda run: run.flow)
+    found = {
+        "area": best.pump.area,
+        "lead": best.pump.lead,
+        "motor_speed": best.motor_speed / REV,
     }
-    best = dict(zip(TABLE_4_1, max(runs, key=lambda c: runs[c]), strict=True))
-    return best[name] / REV if name == "motor_speed" else best[name]
+    return found[name]
 
 
 def rate_ratio() -> float:
