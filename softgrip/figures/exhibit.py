@@ -56,7 +56,11 @@ class Exhibit:
 
 
 EXHIBITS: dict[tuple[Kind, str], Exhibit] = {}
-CHAPTERS = ("4", "5")
+CHAPTERS = {
+    "4": ("chapter_4", "chapter_4_control", "tables_4"),
+    "5": ("chapter_5", "tables_5"),
+}
+"""The files that hold a chapter's figures and tables."""
 
 
 def _register(
@@ -99,8 +103,8 @@ def table(
 
 
 def _register_chapter(chapter: str) -> None:
-    import_module(f"softgrip.figures.chapter_{chapter}")
-    import_module(f"softgrip.figures.tables_{chapter}")
+    for module in CHAPTERS[chapter]:
+        import_module(f"softgrip.figures.{module}")
 
 
 def exhibit(title: str) -> Exhibit:

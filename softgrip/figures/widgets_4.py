@@ -4,15 +4,21 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
+from softgrip.control.designs import STEP
+from softgrip.control.pid import Gains
+from softgrip.control.step_metrics import settling_time
 from softgrip.figures.chapter_4 import GAS_VOLUME, simulated
-from softgrip.figures.style import GREY, LINEAR, LUDWICK, MEASURED, VERMILION, still, style
+from softgrip.figures.chapter_4_control import loop
+from softgrip.figures.style import GREY, LINEAR, LUDWICK, MEASURED, PRINTED, VERMILION, still, style
 from softgrip.pump.finger import Finger
 from softgrip.pump.flow import TABLE_4_1, Pump, flow
 from softgrip.pump.gas import ATMOSPHERE, capacity, closed_volume_pressure
 from softgrip.pump.pressure import pressure
 from softgrip.pump.sizing import sizings
+from softgrip.rig.identified_model import identified_model
+from softgrip.rig.pid_gains import pid_gains
 from softgrip.rig.pressure_models import compare
-from softgrip.units import ML, MM, REV, MPa
+from softgrip.units import DEG, ML, MM, REV, MPa
 
 AREAS = dict(zip(("60 mL", "200 mL"), TABLE_4_1["area"], strict=True))
 
@@ -98,4 +104,26 @@ def draw_sizing(pressure: float, volume: float, rise: float) -> Figure:
             xlabel="torque over need", xlim=(0, 8), title=f"{count} of {len(judged)} can do it"
         )
         axes.tick_params(axis="y", labelsize=8.5)
+    return drawn
+
+
+def draw_pid(kp: float, ki: float, kd: float) -> Figure:
+    """Draw the step of the (4.15) controller on its model, with scaled gains.
+
+    Parameters
+    ----------
+    kp, ki, kd
+        Factors on the tuned gains.
+    """
+    tuned = pid_gains("full")
+    gains = Gains(kp * tuned.kp, ki * tuned.ki, kd * tuned.kd, tuned.derivative_filter)
+    found = loop("full", gains, identified_model())
+    angle = np.ravel(found.measured)
+    settled = float(settling_time(found.time, angle, final=STEP, band=0.05))
+    with style():
+        drawn, axes = still(3.0)
+        axes.axhspan(0.95 * STEP / DEG, 1.05 * STEP / DEG, color=PRINTED, alpha=0.2, lw=0)
+        axes.plot(found.time, angle / DEG, color=LUDWICK)
+        words = f"within 5 % after {settled:.1f} s" if settled < 8 else "not within 5 % in 8 s"
+        axes.set(xlabel="time (s)", ylabel="angle (deg)", xlim=(0, 8), ylim=(0, 110), title=words)
     return drawn

@@ -2,11 +2,23 @@
 
 from itertools import product
 
+import numpy as np
+
+from softgrip.control.designs import STEP, linear_loop
+from softgrip.control.loop import SPEED_LIMIT
+from softgrip.control.minimum_time import farthest
+from softgrip.control.pressure_command import SET_PRESSURE
+from softgrip.dynamics.second_order import full_state_space, state_space
 from softgrip.ledger.verdict import simulated
 from softgrip.provenance import data_folder
 from softgrip.pump.flow import TABLE_4_1, Pump, PumpRun, parameter_set
+from softgrip.pump.gas import ATMOSPHERE, capacity_growth
+from softgrip.rig.identified_model import identified_model
+from softgrip.rig.pid_gains import pid_gains
 from softgrip.rig.pressure_models import compare
-from softgrip.units import REV
+from softgrip.rig.staircase_log import staircase_figures
+from softgrip.rig.step_log import StepFigures, step_figures, step_log_figures
+from softgrip.units import DEG, ML, REV
 
 SETTLING = {"simulated": (5.0, 2.5), "measured": (3.95, 2.38)}
 """Settling times in s that Sections 4.3 and 4.4 print: actuator's model alone, full model."""
@@ -56,3 +68,55 @@ def model_error(model: str, log: str = "push-a") -> float:
     """
     found = compare(data_folder() / "simulated" / f"{log}.csv")
     return abs(100 * found.error(getattr(found, model)))
+
+
+def growth_when_compressed(pressure: float = ATMOSPHERE) -> float:
+    """Return c of Eq. (4.7) for gas in a closed rigid volume, 1/Pa: its capacity falls."""
+    return float(capacity_growth(pressure, 90 * ML))
+
+
+@simulated
+def settling_on_model(design: str, criterion: str = "settled_5_percent") -> float:
+    """Return the settling time of a tuned PID on the linear model it was designed on, in s.
+
+    ``design`` is "actuator" or "full"; the model is identified from logs of the simulated rig.
+    """
+    model = identified_model()
+    gains = pid_gains(design)
+    if design == "actuator":
+        system, limit = state_space(model.finger), SET_PRESSURE
+    else:
+        system, limit = full_state_space(model.finger, model.pump_gain), SPEED_LIMIT
+    found = linear_loop(system, gains, limit, duration=20.0)
+    figures = step_figures(found.time, np.ravel(found.measured), STEP, window=0)
+    return float(getattr(figures, criterion))
+
+
+def _step_log(design: str) -> StepFigures:
+    return step_log_figures(data_folder() / "simulated" / f"pid-{design}.csv")
+
+
+@simulated
+def settling_on_rig(design: str) -> float:
+    """Return the time after which the simulated rig stays within 5 deg of 60 deg, in s."""
+    return float(_step_log(design).settled_5_deg)
+
+
+@simulated
+def steady_state_error(design: str) -> float:
+    """Return the size of the steady-state error on the simulated rig, in deg."""
+    return abs(float(_step_log(design).steady_state_error)) / DEG
+
+
+@simulated
+def staircase_lag() -> float:
+    """Return the delay of the angle behind the staircase on the simulated rig, in s."""
+    return staircase_figures(data_folder() / "simulated" / "staircase.csv").lag
+
+
+@simulated
+def farthest_in(time: float = 0.2) -> float:
+    """Return the largest angle that any controller reaches in a time, within 5 rev/s, in deg."""
+    model = identified_model()
+    system = full_state_space(model.finger, model.pump_gain)
+    return float(farthest(system, SPEED_LIMIT, [0.0, time])[-1]) / DEG

@@ -106,7 +106,7 @@ Function = TypeVar("Function", bound=Callable[..., float])
 
 
 def simulated(function: Function) -> Function:
-    """Mark a recomputation as simulated: it may stand beside a measurement, and nothing else."""
+    """Mark a recomputation as simulated: it never counts as coming from stated inputs."""
     function.simulated = True  # type: ignore[attr-defined]
     return function
 
@@ -119,9 +119,9 @@ def _function(claim: Claim) -> Callable[..., float]:
         raise DataFileError(
             claim.id, expected=f"a function of {module.__name__}", got=claim.function
         ) from None
-    if getattr(found, "simulated", False) and claim.basis != "measurement":
+    if getattr(found, "simulated", False) and claim.basis == "inputs" and claim.stated:
         raise DataFileError(
-            claim.id, expected="a measurement, if it is simulated", got=f"basis {claim.basis!r}"
+            claim.id, expected="a measurement or an assumption, if it is simulated", got="inputs"
         )
     return found
 

@@ -16,6 +16,7 @@ from softgrip.errors import UnknownNameError
 from softgrip.provenance import Provenance, data_folder
 from softgrip.rig.calibration import design_1
 from softgrip.rig.calibration_table import FILE
+from softgrip.rig.closed_loop_logs import CLOSED_LOOPS, PERIOD, SEED, write_closed_loop
 from softgrip.rig.log_schema import LogHeader
 from softgrip.rig.logs import LogWriter
 from softgrip.rig.parameters import PumpParameters
@@ -24,8 +25,6 @@ from softgrip.units import ML, MM, REV, MPa
 
 FOLDER = "simulated"
 COMMAND = "python -m softgrip.rig.simulated_logs"
-PERIOD = 0.025
-SEED = 2024
 STEP_RUNS = 7
 STEP_PLUNGER = {60: 11.1 * MM, 90: 25.3 * MM}
 """Travel of the plunger that settles the median finger at about these angles, deg."""
@@ -33,7 +32,7 @@ STEP_PLUNGER = {60: 11.1 * MM, 90: 25.3 * MM}
 
 @dataclass(frozen=True)
 class Recipe:
-    """How a log is made.
+    """How a log of a run in open loop is made.
 
     Attributes
     ----------
@@ -75,7 +74,7 @@ def _step(plunger: float, run: int, words: str) -> Recipe:
 
 
 def recipes() -> dict[str, Recipe]:
-    """Return how each log is made, by name."""
+    """Return how each log in open loop is made, by name."""
     small, large, fast = 6.61e-4, 16.62e-4, 8 * MM
     made = {
         "push-a": _push(small, fast, 60 * ML, 1.65 * REV, "default set of Figure 4.4"),
@@ -96,7 +95,7 @@ def make(name: str, folder: Path | None = None) -> Path:
     Parameters
     ----------
     name
-        One of `recipes`.
+        One of `recipes` or of `closed_loop_logs.CLOSED_LOOPS`.
     folder
         Where to write it; None for ``data/simulated/``.
 
@@ -106,9 +105,19 @@ def make(name: str, folder: Path | None = None) -> Path:
         If there is no such recipe.
     """
     known = recipes()
-    if name not in known:
-        raise UnknownNameError("simulated log", name, list(known))
-    recipe = known[name]
+    if name not in known and name not in CLOSED_LOOPS:
+        raise UnknownNameError("simulated log", name, [*known, *CLOSED_LOOPS])
+    path = (data_folder() / FOLDER if folder is None else folder) / f"{name}.csv"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.unlink(missing_ok=True)
+    if name in CLOSED_LOOPS:
+        write_closed_loop(name, path, f"{COMMAND} {name}")
+    else:
+        _write_open_loop(name, known[name], path)
+    return path
+
+
+def _write_open_loop(name: str, recipe: Recipe, path: Path) -> None:
     parameters = replace(design_1(), pump=recipe.pump)
     rig = SimulatedRig(
         parameters, seed=SEED, first=recipe.run, period=PERIOD, plunger=recipe.plunger
@@ -128,9 +137,6 @@ def make(name: str, folder: Path | None = None) -> Path:
             "plunger_at_start": f"{recipe.plunger!r} m",
         },
     )
-    path = (data_folder() / FOLDER if folder is None else folder) / f"{name}.csv"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.unlink(missing_ok=True)
     with LogWriter(path, header) as log:
         for k, command in enumerate(recipe.commands):
             found = rig.advance(command)
@@ -148,14 +154,14 @@ def make(name: str, folder: Path | None = None) -> Path:
             )
             if event:
                 break
-    return path
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Make the logs that are named, or all."""
+    names = [*recipes(), *CLOSED_LOOPS]
     parser = argparse.ArgumentParser(prog=COMMAND, description="Make simulated logs.")
-    parser.add_argument("name", nargs="*", help=", ".join(recipes()))
-    for name in parser.parse_args(arguments).name or recipes():
+    parser.add_argument("name", nargs="*", help=", ".join(names))
+    for name in parser.parse_args(arguments).name or names:
         print(make(name))
 
 

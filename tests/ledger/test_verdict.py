@@ -78,12 +78,12 @@ def test_bounds(relation, x, expected):
     assert got.verdict is expected
 
 
-def test_simulated_value_stands_beside_a_measurement_and_nothing_else(monkeypatch):
+def test_simulated_value_never_counts_as_coming_from_stated_inputs(monkeypatch):
     monkeypatch.setattr(module, "_function", FIND)
     chapter = SimpleNamespace(__name__="chapter", value=module.simulated(lambda x: x))
     monkeypatch.setattr(module, "import_module", lambda name: chapter)
     assert judge(claim(basis="measurement")).simulated
-    with pytest.raises(DataFileError, match="a measurement, if it is simulated"):
+    with pytest.raises(DataFileError, match="a measurement or an assumption, if it is simulated"):
         judge(claim())
 
 

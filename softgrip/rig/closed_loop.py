@@ -1,0 +1,106 @@
+"""The controllers of Chapter 4 on the simulated rig, with all that its sensors tell on the way."""
+
+from dataclasses import dataclass, replace
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from softgrip.control.loop import SPEED_LIMIT, Controller, LoopResult, run_loop
+from softgrip.control.pid import PID
+from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed, PressureByPlunger
+from softgrip.dynamics.integrate import Floats
+from softgrip.errors import InvalidInputError
+from softgrip.rig.angle_plant import AnglePlant
+from softgrip.rig.identified_model import identified_model
+from softgrip.rig.pid_gains import pid_gains
+from softgrip.rig.plant import SimulatedRig
+from softgrip.rig.sensors import Measurement
+
+Name = Literal["actuator", "actuator by plunger", "full"]
+"""The (4.14) design under its two readings of `control.pressure_command`, and the (4.15) one."""
+
+
+@dataclass(frozen=True)
+class ClosedLoop:
+    """A loop on the simulated rig.
+
+    Attributes
+    ----------
+    result
+        Reference, measured angle and command, shape (runs, N) where they differ by run.
+    measured
+        All that the sensors said at the N samples, arrays of shape (N, runs).
+    true_angle
+        rad, shape (runs, N): what a real rig would not tell.
+    """
+
+    result: LoopResult
+    measured: Measurement
+    true_angle: Floats
+
+
+def controller(name: Name, stage: str = "tuned") -> Controller:
+    """Return a controller with its kept gains, from angles to motor speed.
+
+    Raises
+    ------
+    InvalidInputError
+        If the name is not one of `Name`.
+    """
+    if name not in get_args(Name):
+        raise InvalidInputError("name", expected=f"one of {get_args(Name)}", got=name)
+    if name == "full":
+        return PID(pid_gains("full", stage), limits=(-SPEED_LIMIT, SPEED_LIMIT))
+    pid = PID(pid_gains("actuator", stage), limits=(-SET_PRESSURE, SET_PRESSURE))
+    if name == "actuator":
+        return PressureAsSpeed(pid)
+    return PressureByPlunger(pid, identified_model().pump_gain)
+
+
+def run_on_rig(
+    rig: SimulatedRig, controlled_by: Controller, reference: ArrayLike, *, duration: float
+) -> ClosedLoop:
+    """Run a controller on a simulated rig, commands limited to 5 rev/s.
+
+    Parameters
+    ----------
+    rig
+        At rest; its period is the loop's.
+    controlled_by
+        From angles to motor speed.
+    reference
+        rad: a number or an array of ``N = round(duration / period) + 1`` samples.
+    duration
+        s.
+    """
+    plant = _Recorder(rig)
+    result = run_loop(
+        plant, controlled_by, reference, duration=duration, period=rig.period, limit=SPEED_LIMIT
+    )
+    # The loop ends with the command of its last sample carried out.
+    seen, angles = plant.measured[:-1], plant.angles[:-1]
+    together = Measurement(
+        np.array([one.time for one in seen]),
+        *(
+            np.stack([getattr(one, name) for one in seen])
+            for name in ("pressure", "angle", "pressure_counts", "angle_counts")
+        ),
+    )
+    return ClosedLoop(result, together, np.stack(angles, axis=-1))
+
+
+class _Recorder(AnglePlant):
+    """An `AnglePlant` that keeps what it measured."""
+
+    def __init__(self, rig: SimulatedRig) -> None:
+        super().__init__(rig)
+        self.measured: list[Measurement] = []
+        self.angles: list[Floats] = []
+
+    def advance(self, command: ArrayLike, duration: float) -> Floats:
+        found = self.rig.advance(command, duration)
+        # The rig may reuse its arrays for the next sample.
+        self.measured.append(replace(found, angle=found.angle.copy()))
+        self.angles.append(self.rig.truth.angle)
+        return found.angle

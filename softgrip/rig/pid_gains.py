@@ -1,0 +1,115 @@
+"""The gains of the two PID controllers of Chapter 4; ``python -m softgrip.rig.pid_gains``.
+
+The command identifies the rig from its logs, designs both controllers on what it found and writes
+``data/control/pid_gains.csv``. The logs of the controllers are made with what stands there.
+"""
+
+import csv
+from dataclasses import astuple, dataclass, fields
+from pathlib import Path
+
+from softgrip.control.designs import Design, actuator_design, full_design
+from softgrip.control.pid import Gains
+from softgrip.errors import UnknownNameError
+from softgrip.provenance import data_file, data_folder
+from softgrip.rig.identified_model import IdentifiedModel, identified_model
+
+FILE = "control/pid_gains.csv"
+COMMAND = "python -m softgrip.rig.pid_gains"
+MODELS = {"actuator": "Eq. (4.14)", "full": "Eq. (4.15)"}
+STAGES = ("ziegler-nichols", "tuned")
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of the file.
+
+    Attributes
+    ----------
+    design, model
+        Key and value of `MODELS`.
+    stage
+        One of `STAGES`.
+    command
+        Unit of the command: Pa or rad/s.
+    kp, ki, kd, derivative_filter
+        As of `Gains`.
+    """
+
+    design: str
+    model: str
+    stage: str
+    command: str
+    kp: float
+    ki: float
+    kd: float
+    derivative_filter: float
+
+
+def designs(model: IdentifiedModel, *, evaluations: int = 300) -> dict[str, Design]:
+    """Design both controllers on an identified model, by the keys of `MODELS`."""
+    return {
+        "actuator": actuator_design(model.finger, evaluations=evaluations),
+        "full": full_design(model.finger, model.pump_gain, evaluations=evaluations),
+    }
+
+
+def write(path: Path | None = None) -> Path:
+    """Design the controllers, write the file and return its path."""
+    model = identified_model()
+    target = data_folder() / FILE if path is None else path
+    target.parent.mkdir(parents=True, exist_ok=True)
+    finger = model.finger
+    with target.open("w", encoding="utf-8", newline="") as out:
+        out.write(f"# provenance: simulated\n# source: {COMMAND}\n")
+        out.write(
+            f"# designed on: omega_n = {finger.natural_frequency:.4g} rad/s; "
+            f"zeta = {finger.damping_ratio:.4g}; gain = {finger.gain:.4g} rad/Pa; "
+            f"C_i = {model.capacity:.4g} m^3/Pa\n"
+        )
+        table = csv.writer(out, lineterminator="\n")
+        table.writerow(entry.name for entry in fields(Row))
+        for name, design in designs(model).items():
+            unit = "Pa" if name == "actuator" else "rad/s"
+            for stage, gains in zip(STAGES, (design.tuned.start, design.gains), strict=True):
+                row = Row(name, MODELS[name], stage, unit, *astuple(gains))
+                table.writerow(f"{x:.6g}" if isinstance(x, float) else x for x in astuple(row))
+    return target
+
+
+def read(path: Path | None = None) -> tuple[Row, ...]:
+    """Read the file, or another of its form."""
+    source = data_file(FILE).path if path is None else path
+    with source.open(encoding="utf-8", newline="") as lines:
+        rows = list(csv.reader(line for line in lines if not line.startswith("#")))[1:]
+    return tuple(
+        Row(design, model, stage, unit, *map(float, gains))
+        for design, model, stage, unit, *gains in rows
+    )
+
+
+def pid_gains(design: str, stage: str = "tuned") -> Gains:
+    """Return kept gains.
+
+    Raises
+    ------
+    UnknownNameError
+        If there is no such design or stage.
+
+    Examples
+    --------
+    >>> pid_gains("full").kp > 0
+    True
+    """
+    known = {
+        (row.design, row.stage): Gains(row.kp, row.ki, row.kd, row.derivative_filter)
+        for row in read()
+    }
+    if (design, stage) not in known:
+        names = [" ".join(key) for key in known]
+        raise UnknownNameError("PID controller", f"{design} {stage}", names)
+    return known[design, stage]
+
+
+if __name__ == "__main__":
+    print(write())

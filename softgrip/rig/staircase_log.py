@@ -1,0 +1,133 @@
+"""What the log of a controlled staircase says: time to a commanded change, and lag (Figure 4.7)."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.materials.arrays import Floats
+from softgrip.rig.log_reader import read_log
+
+
+@dataclass(frozen=True)
+class StaircaseFigures:
+    """The figures of a staircase.
+
+    Attributes
+    ----------
+    edges
+        Number of changes of the reference.
+    time_to_half, time_to_change
+        From a change of the reference until the mean response to all changes has covered 50 and
+        90 % of it, s; infinite if it does not within the shortest hold.
+    lag
+        Delay at which the angle is most alike the reference, s.
+    rms_error
+        Of angle against reference, rad.
+    """
+
+    edges: int
+    time_to_half: float
+    time_to_change: float
+    lag: float
+    rms_error: float
+
+
+def lag(reference: ArrayLike, angle: ArrayLike, period: float, *, longest: float = 3.0) -> float:
+    """Return the delay, s, of the largest correlation between reference and later angle.
+
+    Parameters
+    ----------
+    reference, angle
+        rad, shape (N,), evenly sampled, not constant.
+    period
+        s, > 0; the lag is a multiple of it.
+    longest
+        Largest delay that is tried, s; it must leave half of the record.
+
+    Examples
+    --------
+    >>> wave = np.sin(np.arange(400) / 20)
+    >>> lag(wave[10:], wave[:-10], 0.025)
+    0.25
+    """
+    r, y = np.asarray(reference, np.float64), np.asarray(angle, np.float64)
+    most = round(longest / period)
+    if r.shape != y.shape or r.ndim != 1 or 2 * most > r.size or not (np.ptp(r) and np.ptp(y)):
+        raise InvalidInputError(
+            "reference, angle",
+            expected=f"two arrays (N,), not constant, N >= {2 * most}",
+            got=(r.shape, y.shape),
+        )
+    alike = [np.corrcoef(r[: r.size - k], y[k:])[0, 1] for k in range(most + 1)]
+    return int(np.argmax(alike)) * period
+
+
+def mean_edge(time: ArrayLike, reference: ArrayLike, angle: ArrayLike) -> tuple[Floats, Floats]:
+    """Return time since a change, s, and the share of it covered in the mean, up to the least hold.
+
+    Share 0 is the reference before the change, share 1 that after it; the mean over all changes
+    takes most of the noise away. A loop that has not come to rest in a hold starts the next change
+    from a share below 0.
+
+    Parameters
+    ----------
+    time, reference, angle
+        s, rad, rad, shape (N,), with at least one step in the reference; steps, not ramps.
+    """
+    t, r, y = (np.asarray(values, np.float64) for values in (time, reference, angle))
+    at = np.flatnonzero(np.diff(r)) + 1
+    if at.size == 0:
+        raise InvalidInputError("reference", expected="a change", got="none")
+    shortest = int(np.diff([*at, r.size]).min())
+    if shortest < 2:
+        raise InvalidInputError("reference", expected="levels that are held", got="a ramp")
+    change = r[at] - r[at - 1]
+    rows = np.stack([y[k : k + shortest] for k in at])
+    share = ((rows - r[at - 1][:, None]) / change[:, None]).mean(axis=0)
+    return t[at[0] : at[0] + shortest] - t[at[0]], share
+
+
+def staircase_figures(path: Path | str) -> StaircaseFigures:
+    """Judge the staircase that a log holds.
+
+    Parameters
+    ----------
+    path
+        Of a log with a column `reference` [rad] that changes in steps.
+
+    Raises
+    ------
+    DataFileError
+        If the log has no such reference.
+    """
+    log = read_log(path)
+    if "reference" not in log.columns:
+        raise DataFileError(path, expected="a column 'reference [rad]'", got=str([*log.columns]))
+    time, reference, angle = log["time"], log["reference"], log["angle"]
+    try:
+        since, share = mean_edge(time, reference, angle)
+        delay = lag(reference, angle, log.header.period)
+    except InvalidInputError as error:
+        raise DataFileError(path, expected="a staircase", got=str(error)) from None
+    return StaircaseFigures(
+        edges=int(np.count_nonzero(np.diff(reference))),
+        time_to_half=_first(since, share, 0.5),
+        time_to_change=_first(since, share, 0.9),
+        lag=delay,
+        rms_error=float(np.sqrt(np.mean((reference - angle) ** 2))),
+    )
+
+
+def _first(since: Floats, share: Floats, level: float) -> float:
+    # Noise may cross a level before the response does: the last sample below it decides.
+    below = np.flatnonzero(share < level)
+    if below.size == 0:
+        return 0.0
+    last = int(below[-1])
+    if last + 1 == since.size:
+        return float("inf")
+    part = (level - share[last]) / (share[last + 1] - share[last])
+    return float(since[last] + part * (since[last + 1] - since[last]))

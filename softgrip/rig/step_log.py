@@ -1,0 +1,157 @@
+"""What the log of a controlled step says: settling times and steady-state error (Section 4.4)."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.ndimage import uniform_filter1d
+
+from softgrip.control.step_metrics import final_value, settling_time
+from softgrip.errors import DataFileError
+from softgrip.materials.arrays import Floats, check_positive
+from softgrip.rig.log_reader import read_log
+from softgrip.units import DEG
+
+WINDOW = 0.5
+"""Over which the angle is averaged before it is judged, s, half of it on each side."""
+
+END = 2.0
+"""Length of the end of a record that counts as its steady state, s."""
+
+About = Literal["reference", "own end"]
+
+
+@dataclass(frozen=True)
+class StepFigures:
+    """The figures of a step, each of shape () or (runs,).
+
+    Attributes
+    ----------
+    settled_2_percent, settled_5_percent
+        Time after which the angle stays within a share of the step, s; infinite if it does not, or
+        if that begins only within the last `END` of the record: too short to call it rest.
+    settled_2_deg, settled_5_deg
+        The same within 2 and 5 deg.
+    steady_state_error
+        Reference less the mean of the end, rad.
+    swing
+        Half the distance of the least from the largest averaged angle of the end, rad.
+    noise
+        Root mean square of what the averaging took away at the end, rad. A band below a few times
+        ``noise / sqrt(samples averaged)`` is judged by chance.
+    """
+
+    settled_2_percent: Floats
+    settled_5_percent: Floats
+    settled_2_deg: Floats
+    settled_5_deg: Floats
+    steady_state_error: Floats
+    swing: Floats
+    noise: Floats
+
+
+def smoothed(angle: ArrayLike, period: float, *, window: float = WINDOW) -> Floats:
+    """Return the mean about each sample, so without a delay; beyond the ends the ends go on.
+
+    Parameters
+    ----------
+    angle
+        rad, shape (N,) or (runs, N).
+    period
+        s, > 0.
+    window
+        s, >= 0; the odd number of samples nearest above it is taken, one for 0.
+    """
+    check_positive(period=period)
+    samples = 2 * round(window / period / 2) + 1
+    return np.asarray(uniform_filter1d(np.asarray(angle, np.float64), samples, mode="nearest"))
+
+
+def step_figures(
+    time: ArrayLike,
+    angle: ArrayLike,
+    target: float,
+    *,
+    initial: float = 0.0,
+    about: About = "reference",
+    window: float = WINDOW,
+) -> StepFigures:
+    """Judge a step.
+
+    Parameters
+    ----------
+    time
+        Since the step, s, shape (N,), evenly sampled.
+    angle
+        rad, shape (N,) or (runs, N).
+    target, initial
+        Reference after and before the step, rad.
+    about
+        Middle of the bands: the reference, or the mean of the response's own end. A response that
+        keeps an error as large as the band settles about the second alone.
+    window
+        Of the averaging, s; 0 for a response without noise.
+    """
+    t, raw = np.asarray(time, np.float64), np.asarray(angle, np.float64)
+    y = smoothed(raw, float(t[1] - t[0]), window=window)
+    own = final_value(t, raw, window=END)
+    middle = np.broadcast_to(target, own.shape) if about == "reference" else own
+    tail = t >= t[-1] - END
+    bands = ((0.02, False), (0.05, False), (2 * DEG, True), (5 * DEG, True))
+    found = [
+        settling_time(t, y, final=middle, initial=initial, band=band, absolute=absolute)
+        for band, absolute in bands
+    ]
+    two_percent, five_percent, two_deg, five_deg = (
+        np.where(time > t[-1] - END, np.inf, time) for time in found
+    )
+    return StepFigures(
+        settled_2_percent=two_percent,
+        settled_5_percent=five_percent,
+        settled_2_deg=two_deg,
+        settled_5_deg=five_deg,
+        steady_state_error=np.asarray(target - own),
+        swing=np.asarray(np.ptp(y[..., tail], axis=-1) / 2),
+        noise=np.asarray(np.std((raw - y)[..., tail], axis=-1)),
+    )
+
+
+def step_log_figures(
+    path: Path | str, *, about: About = "reference", window: float = WINDOW
+) -> StepFigures:
+    """Judge the step that a log holds.
+
+    Parameters
+    ----------
+    path
+        Of a log with a column `reference` [rad], which either changes once or is one number from
+        the first sample on, the step being at that sample.
+    about, window
+        As of `step_figures`.
+
+    Raises
+    ------
+    DataFileError
+        If the log has no reference, or its reference is no single step.
+    """
+    log = read_log(path)
+    if "reference" not in log.columns:
+        raise DataFileError(path, expected="a column 'reference [rad]'", got=str([*log.columns]))
+    reference, time = log["reference"], log["time"]
+    changes = np.flatnonzero(np.diff(reference))
+    start = int(changes[0]) + 1 if changes.size else 0
+    initial = float(reference[0]) if changes.size else 0.0
+    if changes.size > 1 or reference[-1] == initial:
+        raise DataFileError(
+            path, expected="a reference with one step", got=f"{changes.size} changes"
+        )
+    return step_figures(
+        time[start:] - time[start],
+        log["angle"][start:],
+        float(reference[-1]),
+        initial=initial,
+        about=about,
+        window=window,
+    )

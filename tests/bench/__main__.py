@@ -1,0 +1,23 @@
+"""Measure all subjects, write them to ``book/_build/bench.json`` and print them."""
+
+from pathlib import Path
+from time import perf_counter
+
+from tests.bench import controller, growth, rig, step_responses
+from tests.bench.entry import table, write
+
+PATH = Path(__file__).parents[2] / "book" / "_build" / "bench.json"
+SUBJECTS = (step_responses, rig, growth, controller)
+
+
+def main() -> None:
+    """Run the bench."""
+    start = perf_counter()
+    found = [entry for subject in SUBJECTS for entry in subject.entries()]
+    write(found, PATH)
+    print(table(found))
+    print(f"\nTook {perf_counter() - start:.0f} s; written to {PATH}.")
+
+
+if __name__ == "__main__":
+    main()

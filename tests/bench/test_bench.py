@@ -1,0 +1,77 @@
+"""That the bench runs and writes what it says; no time is judged here."""
+
+import json
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+from tests.bench import controller, growth, rig, step_responses
+from tests.bench.entry import Entry, interleaved, table, write
+from tests.bench.fingers import ALLOWED, batch, choose_step, plain, responses
+
+SMALL = {
+    step_responses: {"runs": 4, "plain_runs": 2, "checked": 2, "repetitions": 1},
+    rig: {"seconds": 0.25, "runs": 3, "repetitions": 1},
+    growth: {"runs": (2, 4, 8), "repetitions": 1},
+    controller: {"count": 50, "repetitions": 2},
+}
+KINDS = {
+    "name": str,
+    "value": float,
+    "unit": str,
+    "baseline": (float, type(None)),
+    "ratio": (float, type(None)),
+    "wanted": str,
+    "met": (bool, type(None)),
+    "note": str,
+}
+
+
+@pytest.mark.parametrize("subject", SMALL, ids=lambda subject: subject.__name__)
+def test_subject_gives_entries_that_survive_json(subject, tmp_path):
+    found = subject.entries(**SMALL[subject])
+    write(found, tmp_path / "deep" / "bench.json")
+    read = json.loads((tmp_path / "deep" / "bench.json").read_text())
+    assert [Entry(**line) for line in read] == found
+    for line in read:
+        assert list(line) == list(KINDS)
+        assert all(isinstance(line[key], kind) for key, kind in KINDS.items())
+        assert np.isfinite([line["value"], line["ratio"] or 0.0]).all()
+    assert all(entry.name in table(found) for entry in found)
+
+
+def test_schema_is_that_of_the_entry():
+    assert [field.name for field in fields(Entry)] == list(KINDS)
+
+
+def test_both_sides_solve_the_same_equation():
+    few = batch(3, samples=51)
+    choice = choose_step(few)
+    found = responses(few, choice.step)
+    true = plain(few, method="DOP853", rtol=1e-11, atol=1e-13)
+    assert found.shape == true.shape == (51, 3)
+    assert abs(found - true).max() < ALLOWED
+
+
+def test_the_first_round_is_thrown_away():
+    calls = []
+    times = interleaved(lambda: calls.append("a"), lambda: calls.append("b"), repetitions=2)
+    assert times.shape == (2, 2)
+    assert calls == ["a", "b"] * 3
+
+
+def test_exponent_of_a_known_power():
+    runs = (100, 1000, 10_000)
+    assert growth.exponent(runs, 3e-5 * np.array(runs) ** 0.9) == pytest.approx(0.9)
+
+
+def test_rig_is_moved_within_its_limits():
+    # A plunger at the end of its stroke would make the run easier than a run.
+    speeds = rig.commands(10.0)
+    parameters = rig.design_1()
+    moved = rig.SimulatedRig(parameters, seed=1)
+    _, truth = moved.open_loop(speeds)
+    assert truth.plunger.max() < parameters.pump.stroke
+    assert truth.angle.max() > 0.5
+    assert truth.pressure.max() < 0.15e6

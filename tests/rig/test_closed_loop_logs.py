@@ -1,0 +1,260 @@
+"""The controllers of Chapter 4 on the simulated rig: gains, logs, and what the logs say."""
+
+import numpy as np
+import pytest
+
+from softgrip.control.loop import SPEED_LIMIT, run_loop
+from softgrip.control.minimum_time import farthest
+from softgrip.control.pid import PID
+from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed
+from softgrip.control.state_space_plant import StateSpacePlant
+from softgrip.dynamics.second_order import full_state_space
+from softgrip.errors import DataFileError, InvalidInputError, UnknownNameError
+from softgrip.provenance import Provenance, data_file
+from softgrip.rig import pid_gains
+from softgrip.rig.angle_plant import AnglePlant
+from softgrip.rig.calibration import (
+    OPERATING_ANGLE,
+    design_1,
+    small_signal_poles,
+    small_signal_stiffness,
+)
+from softgrip.rig.closed_loop import controller, run_on_rig
+from softgrip.rig.closed_loop_logs import CLOSED_LOOPS, PERIOD, SEED
+from softgrip.rig.identified_model import (
+    PUSH_LOG,
+    identified_model,
+    identify_capacity,
+    identify_finger,
+)
+from softgrip.rig.log_reader import read_log
+from softgrip.rig.plant import SimulatedRig
+from softgrip.rig.simulated_logs import COMMAND, make
+from softgrip.rig.staircase import staircase
+from softgrip.rig.staircase_log import lag, mean_edge, staircase_figures
+from softgrip.rig.step_log import smoothed, step_figures, step_log_figures
+from softgrip.units import DEG, ML
+
+NAMES = list(CLOSED_LOOPS)
+
+
+def kept(name):
+    return data_file(f"simulated/{name}.csv").path
+
+
+@pytest.fixture(scope="module")
+def model():
+    return identified_model()
+
+
+def test_rig_does_not_move_before_the_first_command():
+    rig = SimulatedRig(design_1())
+    angle = AnglePlant(rig).advance(0.0, 0.0)
+    assert rig.time == 0
+    assert rig.truth.angle == rig.truth.plunger == 0
+    assert abs(float(angle[0])) < 10 * DEG  # five times the noise
+
+
+def test_identified_finger_is_near_the_small_signal_truth(model):
+    # A spring that stiffens has no one linear model: its secant over a step to 60 deg is softer by
+    # about n = 2.5 than its slope there, so the frequency is lower than the 2.86 rad/s that the rig
+    # is calibrated to at 60 deg, by up to sqrt(2.5).
+    true = design_1().finger
+    frequency = abs(small_signal_poles(true, OPERATING_ANGLE)[0])
+    assert frequency / 2.5**0.5 * 0.85 < model.finger.natural_frequency < frequency
+    secant = small_signal_stiffness(true, OPERATING_ANGLE) / 2.5
+    # The settled gain, less what the slow memory still holds after 6 s (at most 5 %), with spread.
+    assert model.finger.gain == pytest.approx(true.torque_per_pressure / secant, rel=0.12)
+
+
+def test_identified_capacity_is_that_of_the_air_in_the_rig(model):
+    # Rigid: (60 mL + tube + finger) / P_atm at the start. It falls with the push and grows with
+    # the bend, both by less than a tenth at 20 kPa.
+    rig = design_1()
+    rigid = (60 * ML + rig.gas.dead_volume + rig.finger.rest_volume) / rig.gas.atmosphere
+    assert model.capacity == pytest.approx(rigid, rel=0.1)
+    assert model.pump_gain == pytest.approx(6.61e-4 * 0.008 / (2 * np.pi) / model.capacity)
+
+
+def test_capacity_needs_the_pump_in_the_header(tmp_path):
+    path = tmp_path / "push.csv"
+    path.write_text(data_file(PUSH_LOG).path.read_text().replace("# area: 0.000661 m^2\n", ""))
+    with pytest.raises(DataFileError, match="area"):
+        identify_capacity(path)
+
+
+def test_logs_of_different_times_are_not_averaged():
+    with pytest.raises(DataFileError, match="times"):
+        identify_finger([kept("step-60-1"), kept("push-a")])
+
+
+def test_command_gives_the_kept_gains_again(tmp_path):
+    again, before = pid_gains.read(pid_gains.write(tmp_path / "gains.csv")), pid_gains.read()
+    assert [(r.design, r.stage) for r in again] == [(r.design, r.stage) for r in before]
+    for one, other in zip(again, before, strict=True):
+        # The simplex may take another turn under another numpy; near its minimum that is 5 %. The
+        # objective hardly feels an integral gain that is small against kp.
+        for name in ("kp", "kd", "derivative_filter"):
+            assert getattr(one, name) == pytest.approx(getattr(other, name), rel=0.05)
+        assert one.ki == pytest.approx(other.ki, abs=0.05 * other.kp)
+    file = data_file(pid_gains.FILE)
+    assert (file.provenance, file.source) == (Provenance.SIMULATED, pid_gains.COMMAND)
+
+
+def test_unknown_controllers_are_refused():
+    with pytest.raises(UnknownNameError, match="full tuned"):
+        pid_gains.pid_gains("half")
+    with pytest.raises(InvalidInputError, match="actuator by plunger"):
+        controller("half")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_log_is_made_again_bit_for_bit(name, tmp_path):
+    file = data_file(f"simulated/{name}.csv")
+    assert make(name, tmp_path).read_bytes() == file.path.read_bytes()
+    assert (file.provenance, file.source) == (Provenance.SIMULATED, f"{COMMAND} {name}")
+    assert file.path.stat().st_size < 150_000
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_log_replayed_in_open_loop_gives_its_own_measurements(name):
+    # The controller adds nothing but the command: the rig alone, given it, says the same.
+    log = read_log(kept(name))
+    assert log.repairs == ()
+    assert np.max(np.abs(log["command"])) <= SPEED_LIMIT
+    rig = SimulatedRig(design_1(), seed=SEED, period=PERIOD)
+    first = rig.advance(0.0, 0.0)
+    assert log["angle"][0] == first.angle[0]
+    seen, _ = rig.open_loop(log["command"][1:])
+    np.testing.assert_array_equal(seen.angle[:, 0], log["angle"][1:])
+
+
+def test_figures_of_the_step_under_the_full_design():
+    figures = step_log_figures(kept("pid-full"))
+    # To the period, 0.025 s; the printed 2.38 s lies between the two.
+    assert float(figures.settled_5_deg) == pytest.approx(1.71, abs=0.03)
+    assert float(figures.settled_5_percent) == pytest.approx(4.26, abs=0.03)
+    assert abs(float(figures.steady_state_error)) < 2 * DEG  # printed: about 2 deg
+    assert float(figures.noise) == pytest.approx(2 * DEG, rel=0.1)
+
+
+def test_figures_of_the_step_under_the_actuator_design():
+    figures = step_log_figures(kept("pid-actuator"))
+    assert float(figures.settled_5_deg) == pytest.approx(10.29, abs=0.03)  # printed: 3.95 s
+    assert float(figures.settled_5_percent) == pytest.approx(10.53, abs=0.03)
+    assert abs(float(figures.steady_state_error)) < 2 * DEG  # printed: about 5 deg
+
+
+def test_full_design_settles_sooner_on_every_finger_at_60_deg():
+    settled = {}
+    for name in ("actuator", "full"):
+        rig = SimulatedRig(design_1(), runs=7, seed=SEED)
+        loop = run_on_rig(rig, controller(name), 60 * DEG, duration=20.0)
+        truth = step_figures(loop.result.time, loop.true_angle, 60 * DEG, window=0.0)
+        told = step_figures(loop.result.time, loop.result.measured, 60 * DEG)
+        settled[name] = np.median(told.settled_5_deg)
+        # Averaged measurements judge as the truth does: within lag and window.
+        assert settled[name] == pytest.approx(np.median(truth.settled_5_deg), abs=0.25)
+        settled[name + " each"] = told.settled_5_deg
+    assert np.all(settled["full each"] < settled["actuator each"])
+    # Medians 1.94 s and 10.4 s; printed are 2.38 s and 3.95 s, 40 % less.
+    assert 1 - settled["full"] / settled["actuator"] == pytest.approx(0.81, abs=0.03)
+
+
+def test_no_set_pressure_brings_the_actuator_design_to_the_printed_time():
+    # The set pressure is not stated; the smaller it is, the larger the gain of the loop.
+    settled = []
+    for set_pressure in (150e3, 100e3, 50e3, 20e3):
+        pid = PID(pid_gains.pid_gains("actuator"), limits=(-SET_PRESSURE, SET_PRESSURE))
+        by_share = PressureAsSpeed(pid, set_pressure=set_pressure)
+        rig = SimulatedRig(design_1(), runs=7, seed=SEED)
+        loop = run_on_rig(rig, by_share, 60 * DEG, duration=20.0)
+        figures = step_figures(loop.result.time, loop.result.measured, 60 * DEG)
+        settled.append(float(np.median(figures.settled_5_deg)))
+    np.testing.assert_allclose(settled[:3], [10.40, 8.34, 5.38], atol=0.1)
+    assert np.isinf(settled[3])
+    assert min(settled) > 3.95
+
+
+def test_plunger_reading_settles_without_noise_and_not_with_it(model):
+    full = full_state_space(model.finger, model.pump_gain)
+    time = np.arange(801) * PERIOD
+    clean = run_loop(
+        StateSpacePlant(full),
+        controller("actuator by plunger"),
+        60 * DEG,
+        duration=20.0,
+        limit=SPEED_LIMIT,
+    )
+    found = step_figures(time, clean.measured, 60 * DEG, window=0.0)
+    assert found.settled_5_percent == pytest.approx(2.75, abs=0.03)
+    rig = SimulatedRig(design_1(), runs=7, seed=SEED)
+    loop = run_on_rig(rig, controller("actuator by plunger"), 60 * DEG, duration=20.0)
+    assert np.isinf(step_figures(time, loop.result.measured, 60 * DEG).settled_5_deg).all()
+
+
+def test_staircase_lags_far_more_than_the_printed_fifth_of_a_second(model):
+    figures = staircase_figures(kept("staircase"))
+    assert figures.edges == 12
+    assert figures.lag == pytest.approx(0.95, abs=0.03)
+    assert figures.time_to_half == pytest.approx(0.93, abs=0.05)
+    assert np.isinf(figures.time_to_change)  # 90 % are not covered in a hold of 1.2 s
+    # No controller can: at 5 rev/s all the way the identified finger moves 1 deg in 0.2 s.
+    system = full_state_space(model.finger, model.pump_gain)
+    reached = farthest(system, SPEED_LIMIT, 0.2)
+    assert float(reached) == pytest.approx(0.9 * DEG, abs=0.2 * DEG)
+
+
+def test_step_figures_of_a_known_response():
+    time = np.arange(0, 20, 0.01)
+    angle = 1.0 - np.exp(-time)
+    found = step_figures(time, np.stack([angle, 0.9 * angle]), 1.0, window=0.0)
+    assert found.settled_2_percent[0] == pytest.approx(np.log(50), abs=1e-3)
+    assert found.settled_5_deg[0] == pytest.approx(-np.log(5 * DEG), abs=1e-3)
+    # The second keeps an error of 0.1 rad: it settles about its own end alone.
+    assert np.isinf(found.settled_5_deg[1])
+    assert found.steady_state_error[1] == pytest.approx(0.1, abs=1e-6)
+    own = step_figures(time, 0.9 * angle, 1.0, about="own end", window=0.0)
+    assert own.settled_2_percent == pytest.approx(np.log(0.9 / 0.018), abs=1e-3)
+
+
+def test_what_settles_only_at_the_end_of_the_record_has_not_settled():
+    time = np.arange(0, 10, 0.01)
+    late = np.where(time < 9.0, 0.0, 1.0)
+    assert np.isinf(step_figures(time, late, 1.0, window=0.0).settled_5_deg)
+
+
+def test_averaging_delays_nothing_and_takes_noise_away():
+    ramp = np.arange(400) * 0.01
+    np.testing.assert_allclose(smoothed(ramp, 0.025)[20:-20], ramp[20:-20])
+    noise = np.random.default_rng(1).normal(size=100_000)
+    # 21 samples: 0.5 s at 25 ms, made odd.
+    assert np.std(smoothed(noise, 0.025)) == pytest.approx(21**-0.5, rel=0.03)
+
+
+def test_staircase_has_the_printed_hold_and_comes_back():
+    reference = staircase()
+    changes = np.flatnonzero(np.diff(reference))
+    np.testing.assert_allclose(np.diff(changes) * 0.025, 1.2)
+    assert reference.max() == pytest.approx(60 * DEG)
+    np.testing.assert_array_equal(reference, reference[::-1])
+    with pytest.raises(InvalidInputError):
+        staircase(increment=7 * DEG)
+
+
+@pytest.mark.parametrize("samples", [0, 8, 20])
+def test_lag_and_mean_edge_of_a_delayed_staircase(samples):
+    reference = staircase()
+    late = np.concatenate([np.zeros(samples), reference])[: reference.size]
+    assert lag(reference, late, 0.025) == pytest.approx(samples * 0.025)
+    time, share = mean_edge(np.arange(reference.size) * 0.025, reference, late)
+    np.testing.assert_allclose(share, time >= samples * 0.025 - 1e-9, atol=1e-9)
+
+
+def test_logs_without_a_fitting_reference_are_refused(tmp_path):
+    with pytest.raises(DataFileError, match="reference"):
+        step_log_figures(kept("step-60-1"))
+    with pytest.raises(DataFileError, match="one step"):
+        step_log_figures(kept("staircase"))
+    with pytest.raises(DataFileError, match="staircase"):
+        staircase_figures(kept("pid-full"))
