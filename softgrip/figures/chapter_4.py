@@ -71,8 +71,8 @@ def figure_4_3() -> Figure:
 
 @figure(
     "4.4",
-    caption="Pushes (those of the book of the *simulated* rig) against three models: capacity held constant, "
-    "Eq. (4.5), fitted below 0.03 MPa; capacity that changes with the swept volume, Eq. (4.7), "
+    caption="Pushes (those of the book of the *simulated* rig) against three models: capacity held "
+    "constant, Eq. (4.5), fitted below 0.03 MPa; capacity that changes with the swept volume, Eq. (4.7), "
     "fitted to the whole push; and the capacity that a Kalman filter holds at each sample. The "
     "models' largest errors above 0.10 MPa are in the titles, in that order.",
     alt="Four panels of pressure over time. The simulated pressure curves upward; the constant "
@@ -132,7 +132,7 @@ def figure_4_a() -> Figure:
     _draw_capacity(first, push.time, angle, seen, push.estimated.capacity_std, gain)
     log = read_log(hold)
     flow = pump_of(log, hold).displacement * log["command"]
-    model = ElastanceModel(log.header.period, reference_noise().levels, prior(push.capacity))
+    model = ElastanceModel(log.header.period, reference_noise(), prior(push.capacity))
     held = estimate(log["pressure"], flow, log["angle"], model)
     _draw_capacity(second, held.time, log["angle"], held.capacity, held.capacity_std, gain)
     first.set(title="pushing", xlabel="time (s)", ylabel="capacity (mL/MPa)", ylim=(0, 2200))

@@ -96,7 +96,8 @@ def figure_4_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     "4.C",
     caption="How far the finger can be moved in a given time by *any* controller within 5 rev/s, "
     "on the linear model of finger and pump that is identified from the simulated rig's logs. "
-    "Dotted: the RMS error of the flex sensor, and the 0.2 s that the text gives for a commanded change.",
+    "Dotted: the RMS error of the flex sensor, and the 0.2 s that the text gives for a commanded "
+    "change.",
     alt="A curve that leaves the origin flat and then climbs; at 0.2 seconds it is still below the "
     "two degrees of the sensor's error.",
     provenance=Provenance.SIMULATED,

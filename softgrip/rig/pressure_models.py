@@ -1,6 +1,7 @@
 """The three pressure models of Chapter 4 held against a log of a push, whichever rig made it."""
 
-from dataclasses import dataclass
+import csv
+from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
 
@@ -24,6 +25,7 @@ LOW = 0.03 * MPa
 HIGH = 0.10 * MPa
 """Gauge pressure, Pa, above which Section 4.3 states the errors."""
 FIRST_GUESS = NoiseLevels(pressure_step=50.0, elastance_step=1e6, sensor=700.0)
+NOISE = "control/filter_noise.csv"
 REFERENCE = "simulated/push-a.csv"
 """The record whose noise levels are used for all: those of one sensor and one finger."""
 
@@ -99,16 +101,31 @@ def _fit(swept: Floats, pressure: Floats) -> tuple[float, float]:
     return capacity, float(found.x[0]) / largest
 
 
-@cache
-def reference_noise() -> NoiseEstimate:
-    """Estimate the filter's noise levels from `REFERENCE`; takes some seconds, once."""
-    log = read_log(data_file(REFERENCE).path)
-    pump = pump_of(log, data_file(REFERENCE).path)
-    flow = pump.displacement * log["command"]
-    swept = np.cumsum(flow) * log.header.period
-    capacity, _ = _fit(swept, log["pressure"])
+def measure_noise() -> NoiseEstimate:
+    """Estimate the filter's noise levels from `REFERENCE`; takes some seconds."""
+    path = data_file(REFERENCE).path
+    log = read_log(path)
+    flow = pump_of(log, path).displacement * log["command"]
+    capacity, _ = _fit(np.cumsum(flow) * log.header.period, log["pressure"])
     model = ElastanceModel(log.header.period, FIRST_GUESS, prior(capacity))
     return estimate_noise(log["pressure"], flow, log["angle"], model)
+
+
+def write_noise() -> None:
+    """Keep what `measure_noise` gave; ``python -m softgrip.rig.pressure_models`` calls it."""
+    path = data_file(NOISE).path
+    header = "".join(line for line in path.open(encoding="utf-8") if line.startswith("#"))
+    levels = asdict(measure_noise().levels)
+    rows = "\n".join(f"{name},{level:.4g}" for name, level in levels.items())
+    path.write_text(f"{header}level,value\n{rows}\n", encoding="utf-8")
+
+
+@cache
+def reference_noise() -> NoiseLevels:
+    """Read the kept noise levels of the filter."""
+    with data_file(NOISE).path.open(encoding="utf-8", newline="") as stream:
+        rows = csv.DictReader(line for line in stream if not line.startswith("#"))
+        return NoiseLevels(**{row["level"]: float(row["value"]) for row in rows})
 
 
 def prior(capacity: float) -> Prior:
@@ -144,7 +161,7 @@ def compare(path: Path | str, *, noise_factor: float = 1.0) -> PressureCompariso
     flow = pump.displacement * log["command"]
     swept = np.cumsum(flow) * log.header.period
     capacity, growth = _fit(swept, measured)
-    levels = reference_noise().levels
+    levels = reference_noise()
     noise = NoiseLevels(levels.pressure_step, levels.elastance_step * noise_factor, levels.sensor)
     model = ElastanceModel(log.header.period, noise, prior(capacity))
     estimated = estimate(measured, flow, log["angle"], model)
@@ -160,3 +177,7 @@ def compare(path: Path | str, *, noise_factor: float = 1.0) -> PressureCompariso
         estimated=estimated,
         provenance=log.header.provenance,
     )
+
+
+if __name__ == "__main__":
+    write_noise()

@@ -1,0 +1,52 @@
+"""The three pressure models against logs: who errs how far, and on which side."""
+
+import numpy as np
+import pytest
+
+from softgrip.errors import DataFileError
+from softgrip.provenance import data_folder
+from softgrip.pump.flow import parameter_set
+from softgrip.rig.log_reader import read_log
+from softgrip.rig.pressure_models import compare, measure_noise, pump_of, reference_noise
+
+PUSHES = {"push-a": "default", "push-b": "larger area", "push-c": "smaller lead",
+          "push-d": "higher speed"}  # fmt: skip
+
+
+@pytest.fixture(scope="module", params=PUSHES)
+def found(request):
+    return compare(data_folder() / "simulated" / f"{request.param}.csv")
+
+
+def test_kept_noise_levels_are_what_the_record_gives():
+    kept, measured = reference_noise(), measure_noise().levels
+    # Four digits are kept. The pressure step is not told from zero: only its smallness is.
+    assert measured.elastance_step == pytest.approx(kept.elastance_step, rel=0.02)
+    assert measured.sensor == pytest.approx(kept.sensor, rel=0.005)
+    assert max(measured.pressure_step, kept.pressure_step) < 0.01 * kept.sensor
+
+
+def test_constant_capacity_stays_below_a_closed_syringe(found):
+    """The sign follows from the gas law (`rig.capacity_check`), the text has the other one."""
+    assert found.error(found.constant) < -0.3
+    assert np.all(found.constant[found.measured > 0.1e6] < found.measured[found.measured > 0.1e6])
+
+
+def test_fitted_growth_is_negative_and_the_modified_model_close(found):
+    assert found.growth < 0
+    assert abs(found.error(found.modified)) < 0.05
+
+
+def test_filter_is_between_the_two(found):
+    assert abs(found.error(found.modified)) < abs(found.error(found.filtered)) < 0.1
+
+
+@pytest.mark.parametrize(("name", "parameters"), PUSHES.items())
+def test_log_names_the_pump_of_table_4_1(name, parameters):
+    path = data_folder() / "simulated" / f"{name}.csv"
+    assert pump_of(read_log(path), path) == parameter_set(parameters).pump
+
+
+def test_log_without_a_push_is_refused():
+    with pytest.raises(DataFileError, match=r"a push from below 0\.03 to above 0\.1 MPa"):
+        compare(data_folder() / "simulated" / "step-60-1.csv")
