@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
 .DEFAULT_GOAL := help
-.PHONY: help book test lint lab figures ledger accept picture lock clean
+.PHONY: help book test lint lab figures ledger accept bench picture lock clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z][a-z%-]*:.*## ' $(MAKEFILE_LIST) | sort \
@@ -63,6 +63,9 @@ ledger: $(READY)  ## judge every printed number: book/_build/ledger.json
 
 accept: $(READY)  ## make today's verdicts the expected ones (look at the diff)
 	@$(BIN)/python -m softgrip.ledger --accept
+
+bench: $(READY)  ## measure the speed of simulation and control: book/_build/bench.json
+	@$(BIN)/python -m tests.bench
 
 picture: book  ## take the picture of the README from the built book (needs Chromium)
 	@$(BIN)/python -m softgrip.book.picture

@@ -1,5 +1,6 @@
 """Measure all subjects, write them to ``book/_build/bench.json`` and print them."""
 
+import os
 from pathlib import Path
 from time import perf_counter
 
@@ -16,7 +17,9 @@ def main() -> None:
     found = [entry for subject in SUBJECTS for entry in subject.entries()]
     write(found, PATH)
     print(table(found))
-    print(f"\nTook {perf_counter() - start:.0f} s; written to {PATH}.")
+    # What else the machine had to do is the first thing to look at when a time is off.
+    load = f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}"
+    print(f"\nTook {perf_counter() - start:.0f} s ({load}); written to {PATH}.")
 
 
 if __name__ == "__main__":

@@ -2,14 +2,17 @@
 
 import tracemalloc
 from collections.abc import Sequence
+from inspect import signature
 
 import numpy as np
 
+from softgrip.dynamics.ludwick import step_responses
 from tests.bench.entry import Entry, interleaved
 from tests.bench.fingers import Batch, batch, run
 
 STEP = 0.025
-LIMIT = 64e6
+"""What `fingers.choose_step` chooses for these fingers, s."""
+LIMIT: float = signature(step_responses).parameters["limit"].default
 """Of the output that `step_responses` holds at a time, bytes."""
 
 

@@ -54,6 +54,10 @@ def test_both_sides_solve_the_same_equation():
     assert abs(found - true).max() < ALLOWED
 
 
+def test_growth_is_measured_at_the_step_that_is_good_enough():
+    assert choose_step(batch(1000).take(np.arange(0, 1000, 10))).step == growth.STEP
+
+
 def test_the_first_round_is_thrown_away():
     calls = []
     times = interleaved(lambda: calls.append("a"), lambda: calls.append("b"), repetitions=2)
