@@ -72,9 +72,9 @@ def figure_4_3() -> Figure:
 @figure(
     "4.4",
     caption="Pushes (those of the book of the *simulated* rig) against three models: capacity held "
-    "constant, Eq. (4.5), fitted below 0.03 MPa; capacity that changes with the swept volume, Eq. (4.7), "
-    "fitted to the whole push; and the capacity that a Kalman filter holds at each sample. The "
-    "models' largest errors above 0.10 MPa are in the titles, in that order.",
+    "constant, Eq. (4.5), fitted below 0.03 MPa; capacity that changes with the swept volume, "
+    "Eq. (4.7), fitted to the whole push; and the capacity that a Kalman filter holds at each "
+    "sample. The models' largest errors above 0.10 MPa are in the titles, in that order.",
     alt="Four panels of pressure over time. The simulated pressure curves upward; the constant "
     "model runs straight and stays far below it at high pressure, the modified model follows it "
     "closely, and the filter lags a little behind.",
