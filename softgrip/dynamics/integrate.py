@@ -1,40 +1,23 @@
 """Fixed-step integration of many runs at once: a run is a column, a state is a row.
 
 A law here fills an array of slopes that it is handed, so that the inner loop makes no arrays of its
-own. The step is one for all runs; `step_for` chooses it by measurement, because the order of a
-method says little where the law is not smooth (a fractional power at zero).
+own. The step is one for all runs; `step_size.step_for` chooses it by measurement, because
+the order of a method says little where the law is not smooth (a fractional power at zero).
 """
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from math import ceil
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from softgrip.errors import InvalidInputError
+from softgrip.materials.arrays import Floats
 
-Floats = NDArray[np.float64]
 Derivative = Callable[[float, Floats, Floats], None]
 """``derivative(time, state, slope)`` writes the slope; both arrays have shape (states, runs)."""
 
 _WEIGHTS = np.array([1.0, 2.0, 2.0, 1.0]) / 6
-
-
-@dataclass(frozen=True)
-class StepChoice:
-    """A step, and what halving it changed.
-
-    Attributes
-    ----------
-    step
-        s.
-    error
-        Largest measured error of the output at this step, in the unit of the output.
-    """
-
-    step: float
-    error: float
 
 
 class RungeKutta:
@@ -187,69 +170,3 @@ def rk4(
         if a < b:
             np.dot(weights[a:b], ends_flat, out=result_flat[a:b])
     return result
-
-
-def step_for(
-    error: float, solve: Callable[[float], Floats], *, first: float, smallest: float = 1e-5
-) -> StepChoice:
-    """Choose the step by halving it until halving it further changes too little to matter.
-
-    A step is judged against its half and its quarter, and the error taken as twice the larger
-    change, which holds for any order from 1 up. One halving alone can mislead: where a run crosses
-    a kink, the error depends on where in a step it crosses, and two steps may be off by the same.
-    It stays an estimate.
-
-    Parameters
-    ----------
-    error
-        Allowed error of the output, in its unit, > 0.
-    solve
-        Gives the output for a step; a few runs that stand for the batch are enough.
-    first
-        Longest step to try, s.
-    smallest
-        Where to give up, s.
-
-    Raises
-    ------
-    InvalidInputError
-        If no step down to `smallest` is good enough.
-    """
-    step, seen = first, np.inf
-    coarse, fine = solve(step), solve(step / 2)
-    while step > smallest:
-        finest = solve(step / 4)
-        changes = (np.max(np.abs(other - coarse)) for other in (fine, finest))
-        seen = 2 * float(max(changes))
-        if seen <= error:
-            return StepChoice(step, seen)
-        step, coarse, fine = step / 2, fine, finest
-    raise InvalidInputError(
-        "error",
-        expected=f"one that a step >= {smallest:g} s reaches (at best {seen:.2g})",
-        got=error,
-    )
-
-
-def chunks(runs: int, bytes_per_run: float, *, limit: float = 64e6) -> Iterator[slice]:
-    """Cut a batch into pieces whose output fits into memory.
-
-    Parameters
-    ----------
-    runs
-        Number of runs, >= 1.
-    bytes_per_run
-        Size of the output of one run.
-    limit
-        Largest output held at a time, bytes.
-
-    Examples
-    --------
-    >>> [(part.start, part.stop) for part in chunks(5, 8.0, limit=16.0)]
-    [(0, 2), (2, 4), (4, 5)]
-    """
-    if runs < 1 or not bytes_per_run > 0:
-        raise InvalidInputError("runs", expected=">= 1, of more than 0 bytes", got=runs)
-    size = max(1, int(limit // bytes_per_run))
-    for start in range(0, runs, size):
-        yield slice(start, min(start + size, runs))

@@ -15,8 +15,9 @@ from softgrip.pump.flow import PARAMETER_SETS
 from softgrip.pump.gas import ATMOSPHERE, capacity
 from softgrip.pump.pressure import pressure
 from softgrip.pump.printed_filter import printed_filter, run_printed
+from softgrip.rig.log_pump import pump_of
 from softgrip.rig.log_reader import read_log
-from softgrip.rig.pressure_models import compare, prior, pump_of, reference_noise
+from softgrip.rig.pressure_models import compare, prior, reference_noise
 from softgrip.units import ML, MPa
 
 GAS_VOLUME = 90 * ML
@@ -131,7 +132,7 @@ def figure_4_a() -> Figure:
     first, second = drawn.subplots(1, 2, sharey=True)
     _draw_capacity(first, push.time, angle, seen, push.estimated.capacity_std, gain)
     log = read_log(hold)
-    flow = pump_of(log, hold).displacement * log["command"]
+    flow = pump_of(hold, log).displacement * log["command"]
     model = ElastanceModel(log.header.period, reference_noise(), prior(push.capacity))
     held = estimate(log["pressure"], flow, log["angle"], model)
     _draw_capacity(second, held.time, log["angle"], held.capacity, held.capacity_std, gain)

@@ -1,5 +1,6 @@
 """Tables of Chapter 4."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from softgrip.pump.flow import TABLE_4_1, Pump, flow
 from softgrip.pump.sizing import sizings
 from softgrip.rig.calibration_table import read
 from softgrip.rig.identified_model import identified_model
+from softgrip.rig.log_reader import read_log
 from softgrip.rig.pid_gains import pid_gains
 from softgrip.rig.step_log import step_figures, step_log_figures
 from softgrip.units import DEG, ML, MM, REV, MPa
@@ -117,15 +119,18 @@ def table_4_b() -> pd.DataFrame:
     provenance=Provenance.SIMULATED,
     data=("simulated/pid-actuator.csv", "simulated/pid-full.csv", GAINS),
 )
-def table_4_c() -> pd.DataFrame:
-    """Tabulate settling times of both controllers under each criterion."""
+def table_4_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
+    """Tabulate settling times of both controllers under each criterion; ``logs`` gives two."""
     model = identified_model()
+    paths = logs or (simulated("pid-actuator"), simulated("pid-full"))
     rows = []
-    for design, words in (("actuator", "finger alone (4.14)"), ("full", "finger and pump (4.15)")):
+    designs = ("actuator", "full")
+    names = ("finger alone (4.14)", "finger and pump (4.15)")
+    for design, words, path in zip(designs, names, paths, strict=True):
         found = loop(design, pid_gains(design), model, duration=20.0)
         own = step_figures(found.time, np.ravel(found.measured), STEP, window=0)
-        rig = step_log_figures(simulated(f"pid-{design}"))
-        for place, figures in (("own model", own), ("simulated rig", rig)):
+        rig = f"{read_log(path).header.provenance} rig"
+        for place, figures in (("own model", own), (rig, step_log_figures(path))):
             rows.append(
                 {
                     "designed on": words,

@@ -2,7 +2,7 @@
 
 from numpy.typing import ArrayLike
 
-from softgrip.dynamics.integrate import Floats
+from softgrip.materials.arrays import Floats
 from softgrip.rig.plant import SimulatedRig
 
 

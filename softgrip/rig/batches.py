@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.dynamics.integrate import chunks
+from softgrip.dynamics.chunks import chunks
 from softgrip.rig.parameters import RigParameters
 from softgrip.rig.plant import SimulatedRig
 from softgrip.rig.sensors import Measurement

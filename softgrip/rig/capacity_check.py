@@ -11,7 +11,7 @@ is more than all the air that there was. `least_air_swept` says this in a number
 import numpy as np
 from scipy.optimize import least_squares
 
-from softgrip.dynamics.integrate import Floats
+from softgrip.materials.arrays import Floats
 from softgrip.rig.calibration import design_1
 from softgrip.rig.plant import SimulatedRig
 from softgrip.units import REV, MPa

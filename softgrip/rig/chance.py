@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from softgrip.dynamics.integrate import Floats
+from softgrip.materials.arrays import Floats
 from softgrip.rig.parameters import Spread
 
 CHANNELS = 2

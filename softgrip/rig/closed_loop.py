@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike
 from softgrip.control.loop import SPEED_LIMIT, Controller, LoopResult, run_loop
 from softgrip.control.pid import PID
 from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed, PressureByPlunger
-from softgrip.dynamics.integrate import Floats
 from softgrip.errors import InvalidInputError
+from softgrip.materials.arrays import Floats
 from softgrip.rig.angle_plant import AnglePlant
 from softgrip.rig.identified_model import identified_model
 from softgrip.rig.pid_gains import pid_gains

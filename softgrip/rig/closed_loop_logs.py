@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from softgrip.dynamics.integrate import Floats
+from softgrip.materials.arrays import Floats
 from softgrip.provenance import Provenance
 from softgrip.rig.calibration import design_1
 from softgrip.rig.calibration_table import FILE

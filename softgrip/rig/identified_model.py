@@ -13,9 +13,9 @@ from softgrip.dynamics.identify import Identified, identify
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import DataFileError
 from softgrip.provenance import data_file
-from softgrip.pump.flow import Pump, flow
+from softgrip.pump.flow import flow
+from softgrip.rig.log_pump import pump_of
 from softgrip.rig.log_reader import read_log
-from softgrip.rig.log_schema import Log
 
 STEP_LOGS = tuple(f"simulated/step-60-{run}.csv" for run in range(1, 8))
 PUSH_LOG = "simulated/push-a.csv"
@@ -84,7 +84,7 @@ def identify_capacity(path: Path, *, below: float = LOW_PRESSURE) -> float:
         If the header lacks the pump, or the pressure does not rise.
     """
     log = read_log(path)
-    swept = np.cumsum(flow(log["command"], _pump(path, log))) * log.header.period
+    swept = np.cumsum(flow(log["command"], pump_of(path, log))) * log.header.period
     beyond = log["pressure"] > below
     end = int(np.argmax(beyond)) if beyond.any() else beyond.size
     pressure, swept = log["pressure"][:end], swept[:end]
@@ -98,18 +98,4 @@ def identified_model() -> IdentifiedModel:
     finger = identify_finger([data_file(name).path for name in STEP_LOGS]).system
     path = data_file(PUSH_LOG).path
     capacity = identify_capacity(path)
-    return IdentifiedModel(finger, capacity, _pump(path, read_log(path)).displacement / capacity)
-
-
-def _pump(path: Path, log: Log) -> Pump:
-    notes = log.header.notes
-    try:
-        area, lead = (notes[name].split() for name in ("area", "lead"))
-        if (area[1], lead[1]) != ("m^2", "m"):
-            raise ValueError(f"{area[1]}, {lead[1]}")
-        return Pump(float(area[0]), float(lead[0]))
-    except (KeyError, ValueError, IndexError) as error:
-        raise DataFileError(
-            path, expected="'area: <number> m^2' and 'lead: <number> m' in the header",
-            got=repr(error),
-        ) from None  # fmt: skip
+    return IdentifiedModel(finger, capacity, pump_of(path, read_log(path)).displacement / capacity)

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from softgrip.dynamics.integrate import Floats
+from softgrip.materials.arrays import Floats
 from softgrip.rig.parameters import FingerParameters, RigParameters
 
 Value = Any

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 
-from softgrip.dynamics.integrate import Floats
 from softgrip.errors import InvalidInputError
+from softgrip.materials.arrays import Floats
 from softgrip.provenance import Provenance
 from softgrip.units import DEG, MM, PSI, REV, MPa
 

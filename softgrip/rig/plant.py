@@ -5,8 +5,9 @@ from math import ceil
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.dynamics.integrate import Floats, RungeKutta
+from softgrip.dynamics.integrate import RungeKutta
 from softgrip.errors import InvalidInputError
+from softgrip.materials.arrays import Floats
 from softgrip.rig import motor
 from softgrip.rig.chance import CHANNELS, Chance
 from softgrip.rig.laws import AMOUNT, ANGLE, MEMORY, RATE, SENSED_ANGLE, SENSED_PRESSURE, Plant

@@ -14,10 +14,9 @@ from softgrip.provenance import Provenance, data_file
 from softgrip.pump import pressure as law
 from softgrip.pump.capacity import CapacityEstimate, estimate
 from softgrip.pump.elastance import ElastanceModel, NoiseLevels, Prior
-from softgrip.pump.flow import Pump
 from softgrip.pump.noise import NoiseEstimate, estimate_noise
+from softgrip.rig.log_pump import pump_of
 from softgrip.rig.log_reader import read_log
-from softgrip.rig.log_schema import Log
 from softgrip.units import MPa
 
 LOW = 0.03 * MPa
@@ -68,23 +67,6 @@ class PressureComparison:
         return float(relative[np.argmax(np.abs(relative))])
 
 
-def pump_of(log: Log, path: Path) -> Pump:
-    """Read area and lead, with their units, from the header of a log.
-
-    Raises
-    ------
-    DataFileError
-        If the header lacks one of them.
-    """
-    try:
-        area, lead = (float(log.header.notes[key].split()[0]) for key in ("area", "lead"))
-    except (KeyError, ValueError):
-        raise DataFileError(
-            path, expected="'# area: ... m^2' and '# lead: ... m' in the header", got="none"
-        ) from None
-    return Pump(area, lead)
-
-
 def _fit(swept: Floats, pressure: Floats) -> tuple[float, float]:
     """Return C of Eq. (4.5), fitted below `LOW`, and c of Eq. (4.7), fitted to the whole push."""
     low = pressure < LOW
@@ -105,7 +87,7 @@ def measure_noise() -> NoiseEstimate:
     """Estimate the filter's noise levels from `REFERENCE`; takes some seconds."""
     path = data_file(REFERENCE).path
     log = read_log(path)
-    flow = pump_of(log, path).displacement * log["command"]
+    flow = pump_of(path, log).displacement * log["command"]
     capacity, _ = _fit(np.cumsum(flow) * log.header.period, log["pressure"])
     model = ElastanceModel(log.header.period, FIRST_GUESS, prior(capacity))
     return estimate_noise(log["pressure"], flow, log["angle"], model)
@@ -150,7 +132,7 @@ def compare(path: Path | str, *, noise_factor: float = 1.0) -> PressureCompariso
         and above `HIGH`.
     """
     log = read_log(path)
-    pump = pump_of(log, Path(path))
+    pump = pump_of(Path(path), log)
     time, measured = log["time"], log["pressure"]
     if not (measured.min() < LOW and measured.max() > HIGH):
         raise DataFileError(

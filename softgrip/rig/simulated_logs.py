@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from softgrip.dynamics.integrate import Floats
 from softgrip.errors import UnknownNameError
+from softgrip.materials.arrays import Floats
 from softgrip.provenance import Provenance, data_folder
 from softgrip.rig.calibration import design_1
 from softgrip.rig.calibration_table import FILE

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from softgrip.dynamics.integrate import Floats
+from softgrip.materials.arrays import Floats
 from softgrip.rig import laws
 from softgrip.rig.parameters import RigParameters
 

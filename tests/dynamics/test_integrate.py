@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from softgrip.dynamics.integrate import RungeKutta, chunks, hermite_weights, rk4, step_for
+from softgrip.dynamics.chunks import chunks
+from softgrip.dynamics.integrate import RungeKutta, hermite_weights, rk4
 from softgrip.dynamics.ludwick import LudwickFinger, derivative
+from softgrip.dynamics.step_size import step_for
 from softgrip.errors import InvalidInputError
 
 

@@ -13,6 +13,7 @@ import pytest
 from softgrip.ledger import judge, read_claims
 from softgrip.ledger.__main__ import expected
 from softgrip.materials import fitting, least_squares, power_curve, powerlaw
+from softgrip.pump import flow, gas
 
 CASES: list[tuple[str, Callable, str, str, str]] = [
     (
@@ -53,6 +54,31 @@ CASES: list[tuple[str, Callable, str, str, str]] = [
 ]
 
 
+CHAPTER_4: list[tuple[str, Callable, str, str, str]] = [
+    (
+        "Eq. (4.1): the lead in the denominator",
+        flow.slider_speed,
+        "lead / (2 * pi)",
+        "1 / (2 * pi * lead)",
+        "4.2-optimal-lead",
+    ),
+    (
+        "Eq. (4.2): the area left out",
+        flow.flow,
+        "* pump.area",
+        "* 1",
+        "4.2-optimal-area",
+    ),
+    (
+        "capacity of the gas law: growing where it falls",
+        gas.capacity_growth,
+        "compliance_slope - 2",
+        "compliance_slope + 2",
+        "4.3-growth-above-zero",
+    ),
+]
+
+
 def broken(function: Callable, sound: str, wrong: str):
     """Return the code of a function with one expression rewritten."""
     source = textwrap.dedent(inspect.getsource(function))
@@ -62,11 +88,20 @@ def broken(function: Callable, sound: str, wrong: str):
     return namespace[function.__name__].__code__
 
 
-@pytest.mark.usefixtures("tensile_tests")
-@pytest.mark.parametrize(("what", "function", "sound", "wrong", "claim"), CASES)
-def test_broken_equation_turns_a_verdict(what, function, sound, wrong, claim, monkeypatch):
-    (claimed,) = [c for c in read_claims(5) if c.id == claim]
+def turns(what, function, sound, wrong, claim, monkeypatch):
+    (claimed,) = [c for c in read_claims() if c.id == claim]
     before = expected()[claim]
     assert judge(claimed).verdict == before
     monkeypatch.setattr(function, "__code__", broken(function, sound, wrong))
     assert judge(claimed).verdict != before, what
+
+
+@pytest.mark.usefixtures("tensile_tests")
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case[0])
+def test_broken_equation_of_chapter_5_turns_a_verdict(case, monkeypatch):
+    turns(*case, monkeypatch)
+
+
+@pytest.mark.parametrize("case", CHAPTER_4, ids=lambda case: case[0])
+def test_broken_equation_of_chapter_4_turns_a_verdict(case, monkeypatch):
+    turns(*case, monkeypatch)

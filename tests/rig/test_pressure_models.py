@@ -6,8 +6,9 @@ import pytest
 from softgrip.errors import DataFileError
 from softgrip.provenance import data_folder
 from softgrip.pump.flow import parameter_set
+from softgrip.rig.log_pump import pump_of
 from softgrip.rig.log_reader import read_log
-from softgrip.rig.pressure_models import compare, measure_noise, pump_of, reference_noise
+from softgrip.rig.pressure_models import compare, measure_noise, reference_noise
 
 PUSHES = {"push-a": "default", "push-b": "larger area", "push-c": "smaller lead",
           "push-d": "higher speed"}  # fmt: skip
@@ -44,7 +45,7 @@ def test_filter_is_between_the_two(found):
 @pytest.mark.parametrize(("name", "parameters"), PUSHES.items())
 def test_log_names_the_pump_of_table_4_1(name, parameters):
     path = data_folder() / "simulated" / f"{name}.csv"
-    assert pump_of(read_log(path), path) == parameter_set(parameters).pump
+    assert pump_of(path, read_log(path)) == parameter_set(parameters).pump
 
 
 def test_log_without_a_push_is_refused():

@@ -1,0 +1,51 @@
+"""A figure made from logs shows the logs that it is given, and says whose they are."""
+
+import shutil
+
+import pytest
+
+from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.figures.exhibit import exhibit, with_logs
+from softgrip.figures.save import make, numbers
+from softgrip.figures.show import show
+from softgrip.provenance import Provenance, data_folder
+
+PUSH = data_folder() / "simulated" / "push-d.csv"
+
+
+@pytest.fixture
+def mine(tmp_path):
+    """Return the log of another rig: a real one, by its header."""
+    path = tmp_path / "mine.csv"
+    text = PUSH.read_text().replace("# provenance: simulated", "# provenance: logged")
+    path.write_text(text.replace("# back_end: simulated rig", "# back_end: board"))
+    return path
+
+
+def test_other_log_is_drawn_and_named(mine):
+    item = with_logs(exhibit("Figure 4.4"), [mine])
+    assert item.provenance is Provenance.LOGGED
+    figure, _ = make(item)
+    drawn = numbers(figure)
+    assert set(drawn["panel"].str.split("\n").str[0]) == {"mine"}
+    assert "logged" in set(drawn["series"])
+    shown = show("Figure 4.4", logs=[mine])._repr_mimebundle_()["text/html"]
+    assert "mine.csv (logged" in shown
+
+
+def test_page_without_logs_of_its_own_shows_those_of_the_book():
+    assert show("Figure 4.7", logs=[]).exhibit.provenance is Provenance.SIMULATED
+
+
+def test_figure_that_takes_no_logs_says_so(mine):
+    with pytest.raises(InvalidInputError, match=r"none for Figure 4\.3"):
+        with_logs(exhibit("Figure 4.3"), [mine])
+
+
+def test_log_without_provenance_is_refused(tmp_path):
+    path = tmp_path / "plain.csv"
+    path.write_text("time,pressure\n0,0\n")
+    with pytest.raises(DataFileError, match="a header with '# provenance:'"):
+        with_logs(exhibit("Figure 4.4"), [path])
+    shutil.copy(PUSH, path)
+    assert with_logs(exhibit("Figure 4.4"), [path]).data[0].path == path
