@@ -57,6 +57,7 @@ def chapters(html: Path) -> list[Path]:
     return [file for file in html.glob("*.html") if "widget-view+json" in file.read_text()]
 
 
+@pytest.mark.usefixtures("local_scripts")
 def test_no_page_asks_the_network_or_complains(html, browser):
     for file in pages(html):
         with Visit(browser, file) as visit:
@@ -65,6 +66,7 @@ def test_no_page_asks_the_network_or_complains(html, browser):
             assert visit.complaints == [], file
 
 
+@pytest.mark.usefixtures("local_scripts")
 def test_equations_are_typeset(html, browser):
     seen = 0
     for file in html.glob("*.html"):
@@ -77,6 +79,7 @@ def test_equations_are_typeset(html, browser):
     assert seen > 10
 
 
+@pytest.mark.usefixtures("local_scripts")
 def test_every_slider_moves_its_picture(html, browser):
     moved = 0
     for file in chapters(html):
