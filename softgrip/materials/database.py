@@ -79,7 +79,7 @@ def locate(name: str) -> Path:
 
 
 def available() -> bool:
-    """Tell whether all files can be read; without network it is tried once a session.
+    """Tell whether all files can be read; without network it is tried once a process.
 
     Raises
     ------
