@@ -54,14 +54,15 @@ def find_stale_pages(
     around = tracing.surroundings()
     stale, seen = set(), set()
     for entry in sorted(cache.list_cache_records(), key=lambda e: e.created, reverse=True):
-        page = Path(entry.uri).relative_to(app.srcdir).with_suffix("").as_posix()
+        # Relative by text: the outputs may be those of a folder that has been moved since.
+        page = Path(os.path.relpath(entry.uri, app.srcdir)).with_suffix("").as_posix()
         current = page in env.found_docs and tracing.is_current(_trace(app, page), around)
         if not current:
             stale.add(page)
         if not current or page in seen:
             cache.remove_cache(entry.pk)
         seen.add(page)
-    for page in sorted(stale):
+    for page in sorted(stale & env.found_docs):
         print(f"stale: {page} (something that it uses has changed)", flush=True)
     return sorted(stale & env.found_docs)
 

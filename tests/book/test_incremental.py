@@ -86,3 +86,8 @@ def test_exactly_the_dependent_pages_run_again(project):
     page.write_text(text)
     assert built() == {"a", "b"}
     assert "3000000.0" in (project / "book/_build/html/a.html").read_text()
+
+    moved = project.with_name("moved")
+    project.rename(moved)
+    build(moved / "book", PYTHONPATH=str(moved))
+    assert "3000000.0" in (moved / "book/_build/html/a.html").read_text()
