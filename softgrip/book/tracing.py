@@ -11,6 +11,7 @@ import hashlib
 import json
 import os
 import sys
+import time
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -50,7 +51,10 @@ def surroundings() -> dict[str, str]:
 
 
 def digest(path: Path) -> str:
-    """SHA-256 of a file, or ``missing``."""
+    """Return the SHA-256 of a file, or of the names in a folder, or ``missing``."""
+    if path.is_dir():
+        names = sorted(entry.name for entry in path.iterdir() if entry.name != "__pycache__")
+        return hashlib.sha256("\n".join(names).encode()).hexdigest()
     return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "missing"
 
 
@@ -69,15 +73,19 @@ def record(trace: str) -> None:
     """Watch this process; when it ends, write the watched files that it used into ``trace``.
 
     Modules are taken from `sys.modules` (an import opens the compiled file, not the source), data
-    files from the interpreter's own audit of what is opened for reading.
+    files and listed folders from the interpreter's own audit. A file that was changed while the
+    process ran may have been read before: it is recorded as such, and matches nothing.
     """
     opened: set[str] = set()
+    started = time.time()
 
     def audit(event: str, args: tuple[object, ...]) -> None:
         if event == "open" and isinstance(args[0], str | os.PathLike):
             mode = args[1]
             if mode is None or (isinstance(mode, str) and "r" in mode):
                 opened.add(os.path.realpath(args[0]))
+        elif event in ("os.listdir", "os.scandir") and isinstance(args[0], str | os.PathLike):
+            opened.add(os.path.realpath(args[0]))
 
     def write() -> None:
         modules = (
@@ -86,7 +94,13 @@ def record(trace: str) -> None:
             if (file := getattr(module, "__file__", None)) is not None
         )
         files = sorted(_watched(opened) | _watched(modules))
-        content = {str(file.relative_to(ROOT)): digest(file) for file in files}
+        content = {
+            str(file.relative_to(ROOT)): digest(file)
+            if file.is_dir() or file.stat().st_mtime < started
+            else "changed meanwhile"
+            for file in files
+            if file.exists()
+        }
         Path(trace).parent.mkdir(parents=True, exist_ok=True)
         Path(trace).write_text(json.dumps(content, indent=1))
 

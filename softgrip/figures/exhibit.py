@@ -28,6 +28,8 @@ class Exhibit:
     data: tuple[DataFile, ...]
     provenance: Provenance
     """Class of what is shown; the data files have their own."""
+    sources: str = ""
+    """Data that are not files of the project, in words."""
 
     @property
     def name(self) -> str:
@@ -64,18 +66,32 @@ CHAPTERS = {
 
 
 def _register(
-    kind: Kind, number: str, caption: str, alt: str, data: tuple[str, ...], provenance: Provenance
+    kind: Kind,
+    number: str,
+    caption: str,
+    alt: str,
+    data: tuple[str, ...],
+    provenance: Provenance,
+    sources: str,
 ) -> Callable[[Make], Make]:
     def keep(make: Make) -> Make:
         files = tuple(data_file(name) for name in data)
-        EXHIBITS[kind, number] = Exhibit(kind, number, caption, alt, make, files, provenance)
+        EXHIBITS[kind, number] = Exhibit(
+            kind, number, caption, alt, make, files, provenance, sources
+        )
         return make
 
     return keep
 
 
 def figure(
-    number: str, *, caption: str, alt: str, provenance: Provenance, data: tuple[str, ...] = ()
+    number: str,
+    *,
+    caption: str,
+    alt: str,
+    provenance: Provenance,
+    data: tuple[str, ...] = (),
+    sources: str = "",
 ) -> Callable[[Make], Make]:
     """Register a function that returns a matplotlib Figure.
 
@@ -91,15 +107,22 @@ def figure(
         Class of what is drawn.
     data
         The files below ``data/`` that it is drawn from.
+    sources
+        Other data that it is drawn from, in words.
     """
-    return _register("figure", number, caption, alt, data, provenance)
+    return _register("figure", number, caption, alt, data, provenance, sources)
 
 
 def table(
-    number: str, *, caption: str, provenance: Provenance, data: tuple[str, ...] = ()
+    number: str,
+    *,
+    caption: str,
+    provenance: Provenance,
+    data: tuple[str, ...] = (),
+    sources: str = "",
 ) -> Callable[[Make], Make]:
     """Register a function that returns a pandas DataFrame; parameters as for `figure`."""
-    return _register("table", number, caption, "", data, provenance)
+    return _register("table", number, caption, "", data, provenance, sources)
 
 
 def _register_chapter(chapter: str) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.collections import PathCollection
+from matplotlib.collections import PathCollection, PolyCollection
 from matplotlib.container import BarContainer
 from matplotlib.figure import Figure
 
@@ -24,7 +24,7 @@ def make(exhibit: Exhibit) -> tuple[Any, float]:
 
 
 def _points(axes: Any) -> list[tuple[str, Any, Any]]:
-    """Return (name, x, y) of all that is drawn in data coordinates."""
+    """Return (name, x, y) of all that is drawn in data coordinates; of bands, the outline."""
     found: list[tuple[str, Any, Any]] = []
     for line in axes.lines:
         if line.get_transform().contains_branch(axes.transData):
@@ -32,6 +32,9 @@ def _points(axes: Any) -> list[tuple[str, Any, Any]]:
     for item in axes.collections:
         if isinstance(item, PathCollection):
             found.append((item.get_label(), *np.asarray(item.get_offsets()).T))
+        elif isinstance(item, PolyCollection):
+            for path in item.get_paths():
+                found.append((item.get_label(), *np.asarray(path.vertices).T))
     for item in axes.containers:
         if isinstance(item, BarContainer):
             edges = [(bar.get_x() + bar.get_width() / 2, bar.get_height()) for bar in item]

@@ -72,6 +72,7 @@ class Shown:
         item = self.exhibit
         origin = f"Dissertation {item.title}" if item.in_dissertation else "Not in the dissertation"
         files = [f"{f.path.name} ({f.provenance}, sha256 {f.digest})" for f in item.data]
+        files += [item.sources] if item.sources else []
         return [
             f"{origin}",
             f"shown: <b>{item.provenance}</b>",

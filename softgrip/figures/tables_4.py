@@ -65,10 +65,10 @@ def table_4_1() -> pd.DataFrame:
 
 @table(
     "4.A",
-    caption="Syringes, leads and motors for the finger of the simulated rig, to 0.15 MPa within "
+    caption="Syringes, leads and motors for the finger of the *simulated* rig, to 0.15 MPa within "
     "4 s, best first. The torque is that at the end of the stroke, at the speed which the rise "
     "time asks for; motors are typical ones of the NEMA 17 frame at 24 V.",
-    provenance=Provenance.PRINTED,
+    provenance=Provenance.SIMULATED,
 )
 def table_4_a() -> pd.DataFrame:
     """Tabulate every combination of parts, judged."""

@@ -3,9 +3,11 @@
 import html
 from collections import Counter
 from dataclasses import dataclass
+from math import inf
 
 from softgrip.ledger import Entry, Verdict, ledger
 from softgrip.ledger.counts import counts_table
+from softgrip.ledger.verdict import comes_out
 
 MARKS = {
     Verdict.REPRODUCED: "✓",
@@ -27,12 +29,22 @@ def _number(value: float | None) -> str:
     return "" if value is None else f"{value:.4g}"
 
 
+def _input(value: object) -> str:
+    return "the peak" if value == inf else str(value).replace("_", " ")
+
+
 def _remarks(entry: Entry) -> str:
     claim = entry.claim
     parts = [claim.assumptions and f"Assumed: {claim.assumptions}", claim.note]
     if claim.band:
         values = [value for _, value in entry.band if value == value]
-        parts.append(f"{claim.band.what}: {_number(min(values))} to {_number(max(values))}.")
+        at = ", ".join(_input(v) for v, value in entry.band if comes_out(claim, value))
+        low, high = min(values), max(values)
+        inside = "within the band" if low < float(claim.printed) < high else "outside the band"
+        parts.append(
+            f"{claim.band.what}: {_number(low)} to {_number(high)}; the print "
+            + (f"comes out at {at}." if at else f"lies {inside}.")
+        )
     text = " ".join(filter(None, parts))
     if not text:
         return ""

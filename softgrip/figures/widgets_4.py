@@ -7,7 +7,7 @@ from matplotlib.ticker import MultipleLocator
 from softgrip.control.designs import STEP
 from softgrip.control.pid import Gains
 from softgrip.control.step_metrics import settling_time
-from softgrip.figures.chapter_4 import GAS_VOLUME, simulated
+from softgrip.figures.chapter_4 import simulated
 from softgrip.figures.chapter_4_control import loop
 from softgrip.figures.style import GREY, LINEAR, LUDWICK, MEASURED, PRINTED, VERMILION, still, style
 from softgrip.pump.finger import Finger
@@ -20,11 +20,14 @@ from softgrip.rig.pid_gains import pid_gains
 from softgrip.rig.pressure_models import compare
 from softgrip.units import DEG, ML, MM, REV, MPa
 
+VOLUMES = {"60 mL": 60 * ML, "200 mL": 200 * ML}
+BESIDE = 30 * ML
+"""Air in finger and tube, beside that of the full syringe; assumed."""
 AREAS = dict(zip(("60 mL", "200 mL"), TABLE_4_1["area"], strict=True))
 
 
 def draw_pump(syringe: str, lead: float, speed: float) -> Figure:
-    """Draw the pressure of a pump by Eq. (4.5) and by the exact gas law.
+    """Draw the pressure of a full syringe by Eq. (4.5) and by the exact gas law.
 
     Parameters
     ----------
@@ -36,13 +39,14 @@ def draw_pump(syringe: str, lead: float, speed: float) -> Figure:
         Motor speed, rev/s.
     """
     pushed = flow(speed * REV, Pump(AREAS[syringe], lead * MM))
-    # The plunger stops when it has pushed 55 mL: what a 60 mL syringe holds, less a rest.
-    time = np.linspace(0, min(20.0, 55 * ML / pushed), 80)
-    linear = pressure(time, pushed, capacity(ATMOSPHERE, GAS_VOLUME))
-    exact = closed_volume_pressure(pushed * time, GAS_VOLUME) - ATMOSPHERE
+    full = VOLUMES[syringe]
+    gas = full + BESIDE
+    time = np.linspace(0, min(20.0, 0.92 * full / pushed), 80)
+    linear = pressure(time, pushed, capacity(ATMOSPHERE, gas))
+    exact = closed_volume_pressure(pushed * time, gas) - ATMOSPHERE
     with style():
         drawn, axes = still(3.0)
-        axes.plot(time, exact / MPa, color=MEASURED, label="gas law, 90 mL closed")
+        axes.plot(time, exact / MPa, color=MEASURED, label=f"gas law, {gas / ML:.0f} mL closed")
         axes.plot(time, linear / MPa, color=LINEAR, ls="--", label="Eq. (4.5), C constant")
         axes.axhline(0.15, color=GREY, lw=1, ls=":")
         axes.set(xlabel="time (s)", ylabel="pressure (MPa)", xlim=(0, 20), ylim=(0, 0.2))

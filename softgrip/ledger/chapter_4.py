@@ -6,7 +6,6 @@ import numpy as np
 
 from softgrip.control.designs import STEP, linear_loop
 from softgrip.control.loop import SPEED_LIMIT
-from softgrip.control.minimum_time import farthest
 from softgrip.control.pressure_command import SET_PRESSURE
 from softgrip.dynamics.second_order import full_state_space, state_space
 from softgrip.ledger.verdict import simulated
@@ -112,11 +111,3 @@ def steady_state_error(design: str) -> float:
 def staircase_lag() -> float:
     """Return the delay of the angle behind the staircase on the simulated rig, in s."""
     return staircase_figures(data_folder() / "simulated" / "staircase.csv").lag
-
-
-@simulated
-def farthest_in(time: float = 0.2) -> float:
-    """Return the largest angle that any controller reaches in a time, within 5 rev/s, in deg."""
-    model = identified_model()
-    system = full_state_space(model.finger, model.pump_gain)
-    return float(farthest(system, SPEED_LIMIT, [0.0, time])[-1]) / DEG

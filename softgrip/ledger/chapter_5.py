@@ -18,6 +18,11 @@ def number_of_materials(held_out: bool = False) -> int:
     return len(table_5_1()) - (0 if held_out else len(HELD_OUT))
 
 
+def number_held_out() -> int:
+    """Count the materials of Table 5.2."""
+    return len(TABLE_5_2)
+
+
 def fitted_power(name: str, longest_strain: float = inf, *, two_decimals: bool = False) -> float:
     """Fit n to the public tensile test: true stress, E held, least squares of the stress.
 

@@ -23,7 +23,7 @@ class Verdict(StrEnum):
     ASSUMED = "assumed"
     """It comes out under a named assumption for an unstated or misprinted input."""
     DIFFERS = "differs"
-    """The stated inputs give another number."""
+    """The stated inputs give another number, or no named assumption brings it out."""
     MEASURED = "measured"
     """A physical measurement: there is nothing to recompute it from."""
     CITED = "cited"

@@ -93,8 +93,9 @@ def bootstrap_interval(
     random = np.random.default_rng(seed)
     powers = []
     for _ in range(resamples):
-        starts = random.integers(0, strain.size - length + 1, runs)
-        rows = (starts[:, None] + np.arange(length)).ravel()
+        # Runs go on from the end to the start: else both ends would be drawn too seldom.
+        starts = random.integers(0, strain.size, runs)
+        rows = (starts[:, None] + np.arange(length)).ravel() % strain.size
         again = ludwick.fit(strain[rows], stress[rows], young_modulus=held, loss=fitting.loss)
         powers.append(again.fractional_power)
     low, high = np.quantile(powers, [(1 - confidence) / 2, (1 + confidence) / 2])

@@ -70,7 +70,7 @@ def modified_capacity_error() -> float:
         curve: Floats = np.log1p(x[1] * q) / np.log1p(x[1]) * x[0]
         return curve
 
-    found = least_squares(lambda x: model(x) - p, [1.0, -0.5], bounds=([0.1, -0.999], [10, -0.001]))
+    found = least_squares(lambda x: model(x) - p, [1.0, -0.5], bounds=([0.1, -0.999], [10, 10]))
     high = pressure > HIGH
     off = (model(found.x) - p)[high] / p[high]
     return float(off[np.argmax(np.abs(off))])

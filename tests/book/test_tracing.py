@@ -34,6 +34,17 @@ def test_what_was_not_used_is_not_recorded(tmp_path, root):
     }
 
 
+def test_listed_folder_is_recorded(tmp_path, root):
+    code = "from softgrip.ledger import read_claims; read_claims()"
+    assert "data/claims" in run(code, tmp_path / "t.json", root)
+
+
+def test_new_file_in_a_listed_folder_changes_its_digest(tmp_path):
+    before = tracing.digest(tmp_path)
+    (tmp_path / "chapter_9.toml").write_text("")
+    assert tracing.digest(tmp_path) != before
+
+
 @pytest.fixture
 def trace(tmp_path, monkeypatch):
     monkeypatch.setattr(tracing, "ROOT", tmp_path)
