@@ -25,7 +25,7 @@ GAS_VOLUME = 90 * ML
 PUSHES = ("push-a", "push-b", "push-c", "push-d")
 PANELS = (
     "(a) default",
-    "(b) larger syringe, 60 mL of air",
+    "(b) larger syringe",
     "(c) smaller lead",
     "(d) higher speed",
 )
