@@ -13,7 +13,7 @@ from softgrip.figures.exhibit import table
 from softgrip.provenance import Provenance
 from softgrip.pump.finger import Finger
 from softgrip.pump.flow import TABLE_4_1, Pump, flow
-from softgrip.pump.sizing import sizings
+from softgrip.pump.sizing import Sizing, sizings
 from softgrip.rig.calibration_table import read
 from softgrip.rig.identified_model import identified_model
 from softgrip.rig.log_reader import read_log
@@ -30,6 +30,7 @@ FINGER = Finger(
     rise_time=4.0,
 )
 """The finger of the simulated rig, and a rise time to ask for."""
+LEAST_MARGIN = 1.5
 
 
 @table(
@@ -81,10 +82,20 @@ def table_4_a() -> pd.DataFrame:
             "rev/s": f"{s.motor_speed / REV:.1f}",
             "thrust (N)": f"{s.thrust:.0f}",
             "torque over need": f"{s.margin:.2f}",
-            "can do it": "yes" if s.feasible else "; ".join(s.reasons),
+            "can do it": "yes" if s.feasible else f"no: {_lacking(s)}",
         }
-        for s in sizings(FINGER)
+        for s in sizings(FINGER, least_margin=LEAST_MARGIN)
     )
+
+
+def _lacking(judged: Sizing) -> str:
+    """Name what a combination lacks; `Sizing.reasons` say by how much."""
+    lacks = {
+        "air": judged.stroke > judged.syringe.stroke,
+        "speed": judged.motor_speed > judged.motor.speed_limit,
+        "torque": judged.margin < LEAST_MARGIN,
+    }
+    return ", ".join(word for word, lacking in lacks.items() if lacking)
 
 
 @table(
