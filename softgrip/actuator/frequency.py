@@ -1,0 +1,68 @@
+"""The natural frequency of the finger from its dimensions, Eq. (3.11)-(3.23)."""
+
+from typing import Any
+
+from softgrip.actuator.bending import Finger, modified_moment
+from softgrip.actuator.section import Section, wall_area
+
+Value = Any
+"""A float, an array or a CasADi symbol: a law returns what it was given, and broadcasts."""
+
+
+def spring_constant(finger: Finger) -> Value:
+    """Return K of ``F = K theta**n``, Eq. (3.14), N per rad**n.
+
+    The force F acts at the tip, across the beam, and Eq. (3.13) takes the beam as nearly straight.
+    """
+    section, n = finger.section, finger.fractional_power
+    moment = modified_moment(n, section.width, section.height)
+    return ((n + 1) / n) ** n * finger.young_modulus * moment / finger.length ** (n + 1)
+
+
+def natural_frequency(finger: Finger, mass: Value) -> Value:
+    """Return omega_n of Eq. (3.16), rad/s: ``sqrt(K / M_eq)``.
+
+    For n other than 1 it is the frequency of no motion: that of ``theta'' + omega**2 theta**n = 0``
+    depends on the amplitude, and equals omega_n at no particular one.
+
+    Parameters
+    ----------
+    finger
+        Its section, length and material.
+    mass
+        M_eq, kg, > 0. The unit of ``K / M`` is m/s^2 and not 1/s^2: Eq. (3.11) sets a force equal
+        to a mass times an *angular* acceleration, so that a length of 1 m is hidden in it.
+
+    Examples
+    --------
+    >>> finger = Finger(Section(0.02, 0.004, 0.03, 0.0015), fractional_power=1.05)
+    >>> round(natural_frequency(finger, 0.35), 2)
+    2.61
+    """
+    return (spring_constant(finger) / mass) ** 0.5
+
+
+def stiffness_product(section: Section, young_modulus: Value, fractional_power: Value) -> Value:
+    """Return ``E w (a + b)**(n + 2)``, the left side of Eq. (3.19), N m^n."""
+    return young_modulus * section.width * section.height ** (fractional_power + 2)
+
+
+def stiffness_product_for(
+    frequency: Value, mass: Value, fractional_power: Value, length: Value
+) -> Value:
+    """Return the right side of Eq. (3.19) and (3.23): C for a frequency [rad/s] and a mass [kg]."""
+    n = fractional_power
+    return (n / (n + 1)) ** n * 2 ** (n + 1) * (n + 2) * mass * frequency**2 * length ** (n + 1)
+
+
+def rubber_mass(section: Section, length: Value, density: Value) -> Value:
+    """Return the mass of the wall over the length, kg (Remark 2: volume times density).
+
+    End caps and the partitions between chambers are not counted: their sizes are not printed.
+
+    Examples
+    --------
+    >>> round(rubber_mass(Section(0.02, 0.004, 0.03, 0.0015), 0.094, 1080.0), 4)
+    0.0224
+    """
+    return density * length * wall_area(section)
