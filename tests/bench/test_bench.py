@@ -1,12 +1,13 @@
 """That the bench runs and writes what it says; no time is judged here."""
 
 import json
+import sys
 from dataclasses import fields
 
 import numpy as np
 import pytest
 
-from tests.bench import controller, growth, rig, step_responses
+from tests.bench import controller, elastica, elastica_runs, growth, rig, step_responses
 from tests.bench.entry import Entry, interleaved, table, write
 from tests.bench.fingers import ALLOWED, batch, choose_step, plain, responses
 
@@ -15,6 +16,8 @@ SMALL = {
     rig: {"seconds": 0.25, "runs": 3, "repetitions": 1},
     growth: {"runs": (2, 4, 8), "repetitions": 1},
     controller: {"count": 50, "repetitions": 2},
+    # Ours alone: PyElastica would have to be fetched.
+    elastica: {"elements": (), "runs": 3, "repetitions": 1},
 }
 KINDS = {
     "name": str,
@@ -79,3 +82,40 @@ def test_rig_is_moved_within_its_limits():
     assert truth.plunger.max() < parameters.pump.stroke
     assert truth.angle.max() > 0.5
     assert truth.pressure.max() < 0.15e6
+
+
+def test_our_two_step_responses_are_one():
+    times = np.linspace(0, elastica_runs.SECONDS, 31)
+    found = elastica.integrated(times, 0.01, 2)
+    np.testing.assert_allclose(found.T, [elastica.closed_form(times)] * 2, atol=1e-9)
+
+
+def test_rods_weigh_what_gives_the_frequency_of_the_finger():
+    # The uniform rod by its mode, sampled; the tip mass by its spring, F L^3 / (3 E I).
+    k, x = elastica_runs.FIRST_ROOT, np.linspace(0, 1, 20_001)
+    ratio = (np.cos(k) + np.cosh(k)) / (np.sin(k) + np.sinh(k))
+    mode = np.cosh(k * x) - np.cos(k * x) - ratio * (np.sinh(k * x) - np.sin(k * x))
+    curve = k**2 * (np.cosh(k * x) + np.cos(k * x) - ratio * (np.sinh(k * x) + np.sin(k * x)))
+    length, uniform, tipped = elastica_runs.LENGTH, elastica_runs.UNIFORM, elastica_runs.TIPPED
+    spring = elastica_runs.BENDING / length**3
+    mass = uniform.density * elastica_runs.AREA * length
+    rayleigh = (spring * np.trapezoid(curve**2, x) / (mass * np.trapezoid(mode**2, x))) ** 0.5
+    assert rayleigh == pytest.approx(elastica_runs.FREQUENCY, rel=1e-6)
+    assert (3 * spring / tipped.tip_mass) ** 0.5 == pytest.approx(elastica_runs.FREQUENCY, rel=0.01)
+
+
+def test_frequency_is_read_from_a_swing():
+    class Swing(elastica_runs.Elastica):
+        def run(self, *given, **more):
+            times = np.linspace(0, 12, 301)
+            return {"times": times, "angles": 0.01 * (1 - np.cos(2.7 * times))}
+
+    assert Swing(None).frequency(elastica_runs.UNIFORM, 20) == pytest.approx(2.7)
+
+
+def test_without_pyelastica_ours_is_measured_alone_and_the_reason_is_said(monkeypatch):
+    # A Python in the place of uv does not know its command either, and needs no network to say so.
+    monkeypatch.setattr(elastica_runs, "find_uv_bin", lambda: sys.executable)
+    found = elastica.entries(elements=(5,), runs=2, repetitions=1)
+    assert len(found) == 3
+    assert all("could not be run: " in entry.note and entry.ratio is None for entry in found)
