@@ -1,7 +1,10 @@
 """The parameters of the simulated rig that follow from a few printed measurements.
 
 `softgrip.rig.calibration_table` lists them with what is assumed, and says how far off the rig is.
+The three fingers bear Chapter 3's names. Chapter 5 calls the third one, of FX-Pro, Design 2.
 """
+
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,12 +13,46 @@ from softgrip.rig.parameters import FingerParameters, RigParameters, Spread
 from softgrip.units import DEG, MM, MPa
 
 FULL_ANGLE, FULL_PRESSURE = 206 * DEG, 0.15 * MPa  # Design 1 in Figure 3.10
-TORQUE_PER_PRESSURE = 0.359 / (0.25 * MPa)  # Figure 3.9, measured at a finger held straight
-FREQUENCY, DAMPING_RATIO, DAMPING_SPREAD = 2.86, 0.7, 0.1  # Table 3.3; Section 3.4
-FRACTIONAL_POWER = 2.5  # Table 5.1; Table 5.2 has 2.174 and 2.365 for the same rubber
+TORQUE_PER_PRESSURE = 0.359 / (0.25 * MPa)
+"""N m/Pa: Design 1 in Figure 3.9, held straight. All fingers are alike in it up to 0.1 MPa."""
+DAMPING_RATIO, DAMPING_SPREAD = 0.7, 0.1  # Section 3.4
 OPERATING_ANGLE = 60 * DEG  # of the first step test of Section 5.4
 SPREAD_ANGLE, SPREAD_RMS = 75 * DEG, 2.5 * DEG  # middles of 60 to 90 deg and 2 to 3 deg (5.4)
-REST_VOLUME = (24 - 2 * 1.5) * (30 - 2 * 1.5) * (94 / 2) * MM**3  # Table 3.1; half the length
+
+
+@dataclass(frozen=True)
+class PrintedFinger:
+    """What is printed of a finger and sets its parameters.
+
+    Attributes
+    ----------
+    full_angle
+        Bending angle at `FULL_PRESSURE` (Section 3.4), rad.
+    frequency
+        Natural frequency (Table 3.3), rad/s.
+    fractional_power
+        n of its rubber (Table 5.1).
+    width
+        mm (Table 3.1).
+    """
+
+    full_angle: float
+    frequency: float
+    fractional_power: float
+    width: float = 30
+
+    @property
+    def rest_volume(self) -> float:
+        """Air at rest, m^3: half the length of Section 3.4 in walls of 1.5 mm (Table 3.1)."""
+        return (24 - 2 * 1.5) * (self.width - 2 * 1.5) * (94 / 2) * MM**3
+
+
+DESIGN_1 = PrintedFinger(FULL_ANGLE, 2.86, 2.5)
+"""Dragon Skin 20; Table 5.2 has 2.174 and 2.365 for the n of the same rubber."""
+DESIGN_2 = PrintedFinger(201 * DEG, 2.78, 2.5, width=29)
+"""Dragon Skin 20, narrower."""
+DESIGN_3 = PrintedFinger(232 * DEG, 1.72, 1.538)
+"""Dragon Skin FX-Pro."""
 
 
 def memory_gain(
@@ -56,27 +93,29 @@ def small_signal_poles(finger: FingerParameters, angle: float) -> NDArray[np.com
     return poles[np.argsort(-np.abs(poles.imag), kind="stable")]
 
 
-def design_1(*, spread: bool = True) -> RigParameters:
-    """Return the rig with Design 1, made of Dragon Skin 20.
+def calibrated(printed: PrintedFinger, *, spread: bool = True) -> RigParameters:
+    """Return the rig with a finger of which a few numbers are printed.
 
     The stiffness follows from the angle at 0.15 MPa; inertia and damping follow, in closed form,
     from the pole that the printed frequency and damping ratio name at `OPERATING_ANGLE`.
 
     Parameters
     ----------
+    printed
+        The numbers.
     spread
         Whether runs differ.
     """
-    n = FRACTIONAL_POWER
+    n = printed.fractional_power
     bare = FingerParameters(
-        stiffness=TORQUE_PER_PRESSURE * FULL_PRESSURE / FULL_ANGLE**n,
+        stiffness=TORQUE_PER_PRESSURE * FULL_PRESSURE / printed.full_angle**n,
         fractional_power=n,
         inertia=1.0,
         damping=1.0,
         torque_per_pressure=TORQUE_PER_PRESSURE,
-        rest_volume=REST_VOLUME,
+        rest_volume=printed.rest_volume,
     )
-    pole = FREQUENCY * complex(-DAMPING_RATIO, (1 - DAMPING_RATIO**2) ** 0.5)
+    pole = printed.frequency * complex(-DAMPING_RATIO, (1 - DAMPING_RATIO**2) ** 0.5)
     pull = -small_signal_stiffness(bare, OPERATING_ANGLE) * memory_gain(
         pole, bare.memory, bare.memory_time
     )
@@ -84,12 +123,27 @@ def design_1(*, spread: bool = True) -> RigParameters:
     inertia, damping = np.linalg.solve(
         [[square.real, pole.real], [square.imag, pole.imag]], [pull.real, pull.imag]
     )
-    finger = FingerParameters(
-        bare.stiffness, n, float(inertia), float(damping), TORQUE_PER_PRESSURE, REST_VOLUME
-    )
     between_runs = Spread(
         stiffness=n * SPREAD_RMS / SPREAD_ANGLE,
         damping=DAMPING_SPREAD / DAMPING_RATIO,
         leakage=0.3,
     )
-    return RigParameters(finger, spread=between_runs if spread else Spread())
+    return RigParameters(
+        replace(bare, inertia=float(inertia), damping=float(damping)),
+        spread=between_runs if spread else Spread(),
+    )
+
+
+def design_1(*, spread: bool = True) -> RigParameters:
+    """Return the rig with Design 1, made of Dragon Skin 20; without `spread` runs are alike."""
+    return calibrated(DESIGN_1, spread=spread)
+
+
+def design_2(*, spread: bool = True) -> RigParameters:
+    """Return the rig with Design 2 of Chapter 3, a narrower Design 1."""
+    return calibrated(DESIGN_2, spread=spread)
+
+
+def design_3(*, spread: bool = True) -> RigParameters:
+    """Return the rig with Design 3 of Chapter 3, of Dragon Skin FX-Pro: Chapter 5's Design 2."""
+    return calibrated(DESIGN_3, spread=spread)

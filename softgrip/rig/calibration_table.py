@@ -3,12 +3,12 @@
 ``python -m softgrip.rig.calibration_table`` writes ``data/calibration/simulated_rig.csv``: each
 measurement used, the parameter that it set, what the rig then gives; what is assumed; and what is
 printed but was not used. A quantity that the rig was calibrated to is never one that it found.
+Lines that name no other finger are those of Design 1.
 """
 
 import csv
-from dataclasses import astuple, dataclass, fields, replace
+from dataclasses import astuple, fields, replace
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 
@@ -17,57 +17,26 @@ from softgrip.rig.calibration import (
     FULL_ANGLE,
     FULL_PRESSURE,
     OPERATING_ANGLE,
-    SPREAD_ANGLE,
     design_1,
+    design_2,
+    design_3,
     small_signal_poles,
 )
+from softgrip.rig.calibration_entry import (
+    Entry,
+    assumed,
+    damping_ratio,
+    of_finger,
+    printed,
+    settled_angle,
+    swing,
+)
 from softgrip.rig.capacity_check import constant_capacity_error, modified_capacity_error
-from softgrip.rig.laws import finger_volume, leak, settled_torque
-from softgrip.rig.parameters import FingerParameters
+from softgrip.rig.laws import finger_volume, leak
 from softgrip.units import DEG, ML, MPa
 
 FILE = "calibration/simulated_rig.csv"
 COMMAND = "python -m softgrip.rig.calibration_table"
-
-
-@dataclass(frozen=True)
-class Entry:
-    """One line of the calibration.
-
-    Attributes
-    ----------
-    use
-        "calibrated": the printed value set the parameter; "assumed": nothing printed, we chose it;
-        "checked": printed, but not used.
-    place, quantity, printed, unit
-        What is printed, and where; `printed` is a string, empty if assumed.
-    parameter, value
-        What it set, SI; empty and NaN if checked.
-    rig
-        What the rig gives, in `unit`.
-    residual
-        `rig` less the printed value, in `unit`; NaN where nothing is printed.
-    """
-
-    use: Literal["calibrated", "assumed", "checked"]
-    place: str
-    quantity: str
-    printed: str
-    unit: str
-    parameter: str
-    value: float
-    rig: float
-    residual: float
-
-
-def _settled_angle(finger: FingerParameters, pressure: float, softer: float = 1.0) -> float:
-    torque = finger.torque_per_pressure * pressure / (finger.stiffness * softer)
-    return float(torque ** (1 / finger.fractional_power))
-
-
-def _damping_ratio(finger: FingerParameters) -> float:
-    pole = small_signal_poles(finger, OPERATING_ANGLE)[0]
-    return float(-pole.real / abs(pole))
 
 
 def entries() -> tuple[Entry, ...]:
@@ -77,29 +46,8 @@ def entries() -> tuple[Entry, ...]:
     pole = small_signal_poles(finger, OPERATING_ANGLE)[0]
     step = sensors.angle_range / (sensors.high_count - sensors.low_count)
     noise = float(np.hypot(sensors.angle_noise, step / 12**0.5))
-    middle = settled_torque(SPREAD_ANGLE, finger) / finger.torque_per_pressure
-    swing = [_settled_angle(finger, middle, np.exp(s * spread.stiffness)) for s in (-1, 1)]
     lively = replace(finger, damping=finger.damping * float(np.exp(spread.damping)))
     growth = finger_volume(FULL_ANGLE, FULL_PRESSURE, finger) / finger.rest_volume
-    nan = float("nan")
-
-    def printed(
-        use: Literal["calibrated", "checked"],
-        where: str,
-        what: str,
-        text: str,
-        unit: str,
-        parameter: str,
-        value: float,
-        given: float,
-    ) -> Entry:
-        return Entry(
-            use, where, what, text, unit, parameter, value, given, round(given - float(text), 9)
-        )
-
-    def assumed(what: str, unit: str, parameter: str, value: float, given: float) -> Entry:
-        return Entry("assumed", "", what, "", unit, parameter, value, given, nan)
-
     return (
         printed(
             "calibrated", "Figure 3.9", "torque at 0.25 MPa held straight", "0.359", "N m",
@@ -108,7 +56,7 @@ def entries() -> tuple[Entry, ...]:
         ),
         printed(
             "calibrated", "Figure 3.10", "settled angle at 0.15 MPa", "206", "deg",
-            "finger.stiffness", finger.stiffness, _settled_angle(finger, FULL_PRESSURE) / DEG,
+            "finger.stiffness", finger.stiffness, settled_angle(finger, FULL_PRESSURE) / DEG,
         ),
         printed(
             "calibrated", "Table 5.1", "fractional power of Dragon Skin 20", "2.500", "",
@@ -120,15 +68,15 @@ def entries() -> tuple[Entry, ...]:
         ),
         printed(
             "calibrated", "Section 3.4", "damping ratio taken at 60 deg", "0.7", "",
-            "finger.damping", finger.damping, _damping_ratio(finger),
+            "finger.damping", finger.damping, damping_ratio(finger),
         ),
         printed(
             "calibrated", "Section 3.4", "spread of the damping ratio as one deviation", "0.1", "",
-            "spread.damping", spread.damping, _damping_ratio(lively) - _damping_ratio(finger),
+            "spread.damping", spread.damping, damping_ratio(lively) - damping_ratio(finger),
         ),
         printed(
             "calibrated", "Section 5.4", "run-to-run RMS (2 to 3) taken at 75 deg", "2.5", "deg",
-            "spread.stiffness", spread.stiffness, (swing[0] - swing[1]) / 2 / DEG,
+            "spread.stiffness", spread.stiffness, swing(rig) / DEG,
         ),
         printed(
             "calibrated", "Section 6.4", "RMS error of the flex sensor", "2", "deg",
@@ -136,12 +84,21 @@ def entries() -> tuple[Entry, ...]:
         ),
         printed(
             "checked", "Section 4.4", "constant capacity over truth at high pressure", "30", "%",
-            "", nan, 100 * constant_capacity_error(),
+            "", float("nan"), 100 * constant_capacity_error(),
         ),
         printed(
             "checked", "Section 4.3", "modified model off truth above 0.10 MPa", "10", "%",
-            "", nan, 100 * modified_capacity_error(),
+            "", float("nan"), 100 * modified_capacity_error(),
         ),
+        *of_finger("Design 2", design_2(), "201", "2.78", "2.500"),
+        *of_finger("Design 3", design_3(), "232", "1.72", "1.538"),
+        printed(
+            "checked", "Figure 3.9", "Design 3: torque at 0.25 MPa, where it has buckled", "0.15",
+            "N m", "", float("nan"), design_3().finger.torque_per_pressure * 0.25 * MPa,
+        ),
+        assumed("Designs 2 and 3: torque at 0.25 MPa held straight", "N m",
+                "design_3.finger.torque_per_pressure", finger.torque_per_pressure,
+                finger.torque_per_pressure * 0.25 * MPa),
         assumed("volume at 206 deg over that at rest", "", "finger.ballooning",
                 finger.ballooning, growth),
         assumed("air in the finger at rest", "mL", "finger.rest_volume", finger.rest_volume,

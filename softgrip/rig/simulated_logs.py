@@ -4,9 +4,9 @@ With names as arguments it makes these alone; each is the same, byte by byte, ea
 """
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import ceil
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -14,20 +14,23 @@ import numpy as np
 from softgrip.errors import UnknownNameError
 from softgrip.materials.arrays import Floats
 from softgrip.provenance import Provenance, data_folder
-from softgrip.rig.calibration import design_1
+from softgrip.rig.calibration import design_1, design_3
 from softgrip.rig.calibration_table import FILE
 from softgrip.rig.closed_loop_logs import CLOSED_LOOPS, PERIOD, SEED, write_closed_loop
 from softgrip.rig.log_schema import LogHeader
 from softgrip.rig.logs import LogWriter
-from softgrip.rig.parameters import PumpParameters
+from softgrip.rig.parameters import PumpParameters, RigParameters
 from softgrip.rig.plant import SimulatedRig
+from softgrip.rig.step_tests import step_commands
 from softgrip.units import ML, MM, REV, MPa
 
 FOLDER = "simulated"
 COMMAND = "python -m softgrip.rig.simulated_logs"
 STEP_RUNS = 7
 STEP_PLUNGER = {60: 11.1 * MM, 90: 25.3 * MM}
-"""Travel of the plunger that settles the median finger at about these angles, deg."""
+STEP_PLUNGER_FX = {60: 24.1 * MM, 90: 39.2 * MM}
+"""Travel of the plunger that settles the median finger at about these angles, deg: of Dragon Skin
+20, and of FX-Pro. They are `step_tests.travel_to`, to a tenth of a millimetre."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,8 @@ class Recipe:
         What the log shows.
     plunger
         Where the plunger starts, m.
+    design
+        Gives the parameters of the rig.
     """
 
     pump: PumpParameters
@@ -53,6 +58,7 @@ class Recipe:
     commands: Floats
     words: str
     plunger: float = 0.0
+    design: Callable[[], RigParameters] = design_1
 
 
 def _push(area: float, lead: float, syringe: float, speed: float, words: str) -> Recipe:
@@ -61,16 +67,6 @@ def _push(area: float, lead: float, syringe: float, speed: float, words: str) ->
     seconds = 60 * ML / (area * pump.advance * speed) + 1.0
     commands = np.full(round(seconds / PERIOD), speed)
     return Recipe(pump, 0, commands, words, plunger=(syringe - 60 * ML) / area)
-
-
-def _step(plunger: float, run: int, words: str) -> Recipe:
-    """Return a push as fast as the pump can, to a place of the plunger (m), then a stop."""
-    pump = PumpParameters()
-    # What ramping up loses, ramping down after the command adds: the place is met exactly.
-    pushing = ceil(plunger / (pump.advance * pump.speed_limit * PERIOD))
-    commands = np.zeros(round(6.0 / PERIOD))
-    commands[:pushing] = plunger / (pump.advance * pushing * PERIOD)
-    return Recipe(pump, run, commands, words)
 
 
 def recipes() -> dict[str, Recipe]:
@@ -82,10 +78,15 @@ def recipes() -> dict[str, Recipe]:
         "push-c": _push(small, 2 * MM, 60 * ML, 1.65 * REV, "smaller lead of Figure 4.4"),
         "push-d": _push(small, fast, 60 * ML, 3.30 * REV, "higher speed of Figure 4.4"),
     }
-    for degrees, plunger in STEP_PLUNGER.items():
-        for run in range(STEP_RUNS):
-            words = f"open-loop step to about {degrees} deg"
-            made[f"step-{degrees}-{run + 1}"] = _step(plunger, run, words)
+    for name, travels, design, finger in (
+        ("step", STEP_PLUNGER, design_1, ""),
+        ("step-fx", STEP_PLUNGER_FX, design_3, " of the finger of Dragon Skin FX-Pro"),
+    ):
+        for (degrees, plunger), run in product(travels.items(), range(STEP_RUNS)):
+            words = f"open-loop step to about {degrees} deg{finger}"
+            made[f"{name}-{degrees}-{run + 1}"] = Recipe(
+                PumpParameters(), run, step_commands(plunger), words, design=design
+            )
     return made
 
 
@@ -118,7 +119,7 @@ def make(name: str, folder: Path | None = None) -> Path:
 
 
 def _write_open_loop(name: str, recipe: Recipe, path: Path) -> None:
-    parameters = replace(design_1(), pump=recipe.pump)
+    parameters = replace(recipe.design(), pump=recipe.pump)
     rig = SimulatedRig(
         parameters, seed=SEED, first=recipe.run, period=PERIOD, plunger=recipe.plunger
     )

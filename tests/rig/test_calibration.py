@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from softgrip.provenance import Provenance, data_file
-from softgrip.rig import calibration_table
-from softgrip.rig.calibration import OPERATING_ANGLE, design_1, small_signal_poles
+from softgrip.rig import calibration, calibration_table
+from softgrip.rig.calibration import OPERATING_ANGLE, design_1, design_3, small_signal_poles
+from softgrip.rig.laws import settled_torque
+from softgrip.units import DEG
 
 ENTRIES = calibration_table.entries()
 
@@ -48,9 +50,10 @@ def test_each_line_is_of_its_kind(entry):
 
 @pytest.mark.parametrize("entry", [e for e in ENTRIES if e.parameter], ids=lambda e: e.parameter)
 def test_value_is_the_one_that_the_rig_runs_on(entry):
-    group, _, name = entry.parameter.partition(".")
+    *design, group, name = entry.parameter.split(".")
     name, _, index = name.partition("[")
-    value = getattr(getattr(design_1(), group), name)
+    rig = getattr(calibration, *design or ["design_1"])()
+    value = getattr(getattr(rig, group), name)
     assert entry.value == (value[int(index[:-1])] if index else value)
 
 
@@ -59,3 +62,10 @@ def test_pole_is_near_the_printed_one():
     pole = small_signal_poles(design_1().finger, OPERATING_ANGLE)[0]
     assert pole.real == pytest.approx(-1.99, abs=0.02)
     assert abs(pole.imag) == pytest.approx(2.04, abs=0.01)
+
+
+def test_fx_pro_is_the_softer_finger_at_full_pressure_and_the_stiffer_one_at_small_angles():
+    # 232 against 206 deg at 0.15 MPa with the smaller power: the curves of torque cross between.
+    soft, hard = design_3().finger, design_1().finger
+    assert float(settled_torque(206 * DEG, soft)) < float(settled_torque(206 * DEG, hard))
+    assert float(settled_torque(60 * DEG, soft)) > float(settled_torque(60 * DEG, hard))

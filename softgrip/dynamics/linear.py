@@ -1,0 +1,89 @@
+"""The finger as a mass, a damper and a spring after Hooke's law, Eq. (5.9)-(5.11) and (5.17)."""
+
+from typing import Any
+
+from softgrip.dynamics.ludwick import LudwickFinger
+from softgrip.dynamics.second_order import SecondOrder
+from softgrip.errors import InvalidInputError
+from softgrip.materials.arrays import check_positive
+
+Value = Any
+"""A float or an array: a law returns what it was given, and broadcasts."""
+
+
+def moment_of_inertia(width: Value, height: Value) -> Value:
+    """Return I of a rectangular section, Eq. (5.11), m^4.
+
+    Parameters
+    ----------
+    width, height
+        b and h, m, > 0.
+
+    Examples
+    --------
+    >>> moment_of_inertia(12.0, 1.0)
+    1.0
+    """
+    return width * height**3 / 12
+
+
+def spring_constant(young_modulus: Value, width: Value, height: Value, length: Value) -> Value:
+    """Return K of ``P = K theta``, Eq. (5.10), N/rad: of a cantilever with a force at its tip.
+
+    Parameters
+    ----------
+    young_modulus
+        E, Pa, > 0.
+    width, height, length
+        b, h and L_0, m, > 0.
+
+    Examples
+    --------
+    >>> spring_constant(6.0, 1.0, 1.0, 1.0)
+    1.0
+    """
+    return 2 * young_modulus * moment_of_inertia(width, height) / length**2
+
+
+def force(angle: Value, stiffness: Value) -> Value:
+    """Return the force at the tip, N, that holds an angle (rad), Eq. (5.9).
+
+    The print calls it P here and F in the sentence below; it is a force, not a pressure.
+    """
+    return stiffness * angle
+
+
+def linear_finger(mass: float, damping: float, stiffness: float) -> LudwickFinger:
+    """Return Eq. (5.17): Eq. (5.16) with n = 1. Units as in `LudwickFinger`."""
+    return LudwickFinger(mass, damping, stiffness, 1.0)
+
+
+def second_order(finger: LudwickFinger, force_per_pressure: float) -> SecondOrder:
+    """Return Eq. (5.17) as the system from pressure to angle of Eq. (4.13).
+
+    Parameters
+    ----------
+    finger
+        One finger with n = 1 and a stiffness above zero.
+    force_per_pressure
+        F over P, N/Pa, > 0.
+
+    Raises
+    ------
+    InvalidInputError
+        If the finger is not linear.
+
+    Examples
+    --------
+    >>> second_order(linear_finger(0.5, 1.0, 2.0), 1e-5)
+    SecondOrder(natural_frequency=2.0, damping_ratio=0.5, gain=5e-06)
+    """
+    m, c, k, n = (
+        float(value)  # type: ignore[arg-type]
+        for value in (finger.mass, finger.damping, finger.stiffness, finger.fractional_power)
+    )
+    if n != 1:
+        raise InvalidInputError("finger", expected="a fractional power of 1", got=n)
+    check_positive(stiffness=k)
+    frequency = (k / m) ** 0.5
+    return SecondOrder(frequency, c / (2 * m * frequency), force_per_pressure / k)

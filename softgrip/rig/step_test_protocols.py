@@ -1,0 +1,167 @@
+"""The eight RMS errors of Section 5.4 under each way to make the models that the text leaves open.
+
+``python -m softgrip.rig.step_test_protocols`` writes ``data/dynamics/step_test_errors.csv``.
+"""
+
+import csv
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from softgrip.dynamics import linear, ludwick
+from softgrip.dynamics.ludwick_fit import fit_finger
+from softgrip.errors import InvalidInputError
+from softgrip.materials.arrays import Floats
+from softgrip.materials.table import material
+from softgrip.provenance import data_file, data_folder
+from softgrip.rig.step_sweep import RIGS
+from softgrip.rig.step_test_models import (
+    ANGLES,
+    FINGERS,
+    FORCE_PER_PRESSURE,
+    KINDS,
+    Kind,
+    fit_test,
+    identified_at,
+    kept_test,
+    rms_error,
+)
+from softgrip.rig.step_tests import simulate_step_test, travel_to
+from softgrip.units import DEG, MM
+
+FILE = "dynamics/step_test_errors.csv"
+COMMAND = "python -m softgrip.rig.step_test_protocols"
+SIZE = {"width": 30 * MM, "height": 24 * MM, "length": 94 * MM}
+"""Of both fingers (Section 3.4)."""
+SMALL = 30
+"""deg: the step that stands for small angles."""
+UNIT = 1e4
+"""Pa: any pressure, where the force is named by the angle that it holds."""
+
+Model = Callable[[str, Kind, int], Floats]
+"""``model(design, kind, angle)`` gives the angle, rad, shape (N,), for a test."""
+
+
+def _power(design: str, kind: Kind) -> float:
+    return 1.0 if kind == "linear" else FINGERS[design].estimated
+
+
+def at_60(design: str, kind: Kind, angle: int) -> Floats:
+    """Identify at 60 deg, with the estimated power."""
+    test = kept_test(design, angle)
+    return identified_at(design, kind).response(test.time, test.pressure)
+
+
+def with_true_power(design: str, kind: Kind, angle: int) -> Floats:
+    """Identify at 60 deg, with the power that Table 5.2 calls true."""
+    test, power = kept_test(design, angle), FINGERS[design].true if kind == "ludwick" else 1.0
+    return fit_test(kept_test(design, 60), power).response(test.time, test.pressure)
+
+
+def with_table_power(design: str, kind: Kind, angle: int) -> Floats:
+    """Identify at 60 deg, with the power of Table 5.1, on which the simulated rig runs."""
+    test, power = kept_test(design, angle), material(FINGERS[design].material).fractional_power
+    fitted = fit_test(kept_test(design, 60), power if kind == "ludwick" else 1.0)
+    return fitted.response(test.time, test.pressure)
+
+
+def each_by_itself(design: str, kind: Kind, angle: int) -> Floats:
+    """Identify at the very test that the model is held against."""
+    return identified_at(design, kind, angle).fitted
+
+
+def at_small_angles(design: str, kind: Kind, angle: int) -> Floats:
+    """Identify on a simulated step to 30 deg, without sensors."""
+    rig, test = RIGS[design](), kept_test(design, angle)
+    small = simulate_step_test(rig, travel_to(rig, SMALL * DEG), runs=7, seed=2024)
+    return fit_test(small, _power(design, kind)).response(test.time, test.pressure)
+
+
+def driven_by_a_step(design: str, kind: Kind, angle: int) -> Floats:
+    """Drive by a step of the force that holds the set point; mass and damping from 60 deg."""
+    first, test, n = kept_test(design, 60), kept_test(design, angle), _power(design, kind)
+    fitted = fit_finger(
+        first.time,
+        np.full_like(first.time, UNIT),
+        first.angle,
+        force_per_pressure=FORCE_PER_PRESSURE,
+        fractional_power=n,
+        stiffness=FORCE_PER_PRESSURE * UNIT / (60 * DEG) ** n,
+    )
+    return fitted.response(test.time, np.full_like(test.time, UNIT * (angle / 60) ** n))
+
+
+def stiffness_as_stated(design: str, kind: Kind, angle: int) -> Floats:
+    """Hold the stiffness at Eq. (5.10) or (5.13) as printed; mass and damping from 60 deg."""
+    first, test, n = kept_test(design, 60), kept_test(design, angle), _power(design, kind)
+    modulus = material(FINGERS[design].material).young_modulus
+    stiffness = (
+        linear.spring_constant(modulus, **SIZE)
+        if kind == "linear"
+        else ludwick.spring_constant(modulus, n, **SIZE)
+    )
+    fitted = fit_finger(
+        first.time,
+        first.pressure,
+        first.angle,
+        force_per_pressure=FORCE_PER_PRESSURE,
+        fractional_power=n,
+        stiffness=stiffness,
+    )
+    return fitted.response(test.time, test.pressure)
+
+
+PROTOCOLS: dict[str, Model] = {
+    "identified at 60 deg": at_60,
+    "the same, n true (Table 5.2)": with_true_power,
+    "the same, n of Table 5.1": with_table_power,
+    "each test by itself": each_by_itself,
+    "identified at 30 deg": at_small_angles,
+    "driven by a step of force": driven_by_a_step,
+    "stiffness as printed": stiffness_as_stated,
+}
+"""Ways to make the models, by name."""
+
+
+def errors(model: Model) -> list[float]:
+    """Return the eight RMS errors, deg: by finger, angle, and linear before Ludwick.
+
+    NaN where the record does not determine the model.
+    """
+    found = []
+    for design in FINGERS:
+        for angle in ANGLES:
+            for kind in KINDS:
+                try:
+                    made = model(design, kind, angle)
+                    found.append(rms_error(made, kept_test(design, angle)) / DEG)
+                except InvalidInputError:
+                    found.append(float("nan"))
+    return found
+
+
+def write(path: Path | None = None) -> Path:
+    """Write the errors under each protocol and return the path."""
+    target = data_folder() / FILE if path is None else path
+    target.parent.mkdir(parents=True, exist_ok=True)
+    names = [f"{d} {a} {k}" for d in FINGERS for a in ANGLES for k in KINDS]
+    with target.open("w", encoding="utf-8", newline="") as out:
+        out.write(f"# provenance: simulated\n# source: {COMMAND}\n# RMS errors in deg\n")
+        table = csv.writer(out, lineterminator="\n")
+        table.writerow(["protocol", *names])
+        for name, model in PROTOCOLS.items():
+            table.writerow([name, *(f"{error:.4g}" for error in errors(model))])
+    return target
+
+
+def read() -> dict[str, dict[tuple[str, int, Kind], float]]:
+    """Read the kept errors, deg, by protocol and then by (design, angle, kind)."""
+    keys = [(d, a, k) for d in FINGERS for a in ANGLES for k in KINDS]
+    with data_file(FILE).path.open(encoding="utf-8", newline="") as lines:
+        rows = list(csv.reader(line for line in lines if not line.startswith("#")))[1:]
+    return {row[0]: dict(zip(keys, map(float, row[1:]), strict=True)) for row in rows}
+
+
+if __name__ == "__main__":
+    print(write())
