@@ -1,0 +1,1 @@
+"""Several unequal fingers on one pump: plant, reachable targets, stable inversion, robustness."""
