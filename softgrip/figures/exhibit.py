@@ -59,8 +59,15 @@ class Exhibit:
 
 EXHIBITS: dict[tuple[Kind, str], Exhibit] = {}
 CHAPTERS = {
+    "3": ("chapter_3", "chapter_3_control", "tables_3", "tables_3_control"),
     "4": ("chapter_4", "chapter_4_control", "tables_4"),
-    "5": ("chapter_5", "tables_5"),
+    "5": (
+        "chapter_5",
+        "chapter_5_dynamics",
+        "chapter_5_cantilever",
+        "tables_5",
+        "tables_5_dynamics",
+    ),
 }
 """The files that hold a chapter's figures and tables."""
 

@@ -1,4 +1,4 @@
-"""How the simulated logs of the controllers are made: Figures 4.5 and 4.7 on the simulated rig.
+"""How the simulated logs of the controllers are made: Figures 3.12, 4.5 and 4.7.
 
 They have one column more than other logs, the reference. As in these, the command of a row is the
 one that was held until its time.
@@ -17,6 +17,7 @@ from softgrip.rig.calibration_table import FILE
 from softgrip.rig.closed_loop import Name, controller, run_on_rig
 from softgrip.rig.log_schema import LogHeader
 from softgrip.rig.logs import LogWriter
+from softgrip.rig.lqr_gains import FILE as LQR_FILE
 from softgrip.rig.pid_gains import FILE as GAINS_FILE
 from softgrip.rig.plant import SimulatedRig
 from softgrip.rig.staircase import staircase
@@ -26,7 +27,7 @@ PERIOD = 0.025
 SEED = 2024
 STEP = 60 * DEG
 STEP_DURATION = 20.0
-"""s: long enough for the slower of the two controllers."""
+"""s: long enough for the slowest of the controllers."""
 
 
 @dataclass(frozen=True)
@@ -41,15 +42,18 @@ class ClosedLoopRecipe:
         rad, shape (N,).
     words
         What the log shows.
+    gains
+        Where its gains stand, below ``data/``.
     """
 
     controlled_by: Name
     reference: Floats
     words: str
+    gains: str = GAINS_FILE
 
 
-def _step(name: Name, words: str) -> ClosedLoopRecipe:
-    return ClosedLoopRecipe(name, np.full(round(STEP_DURATION / PERIOD) + 1, STEP), words)
+def _step(name: Name, words: str, gains: str = GAINS_FILE) -> ClosedLoopRecipe:
+    return ClosedLoopRecipe(name, np.full(round(STEP_DURATION / PERIOD) + 1, STEP), words, gains)
 
 
 CLOSED_LOOPS: dict[str, Callable[[], ClosedLoopRecipe]] = {
@@ -58,6 +62,10 @@ CLOSED_LOOPS: dict[str, Callable[[], ClosedLoopRecipe]] = {
     "staircase": lambda: ClosedLoopRecipe(
         "full", staircase(period=PERIOD), "Figure 4.7: staircase, PID designed on Eq. (4.15)"
     ),
+    "lqr-printed": lambda: _step(
+        "lqr printed", "Figure 3.12: 60 deg, LQR with the weights of Eq. (3.29)", LQR_FILE
+    ),
+    "lqr-fast": lambda: _step("lqr fast", "Figure 3.12: 60 deg, LQR made faster", LQR_FILE),
 }
 """What makes the recipe of each log, by name."""
 
@@ -90,7 +98,7 @@ def write_closed_loop(name: str, path: Path, source: str) -> None:
         seed=f"{SEED} run 0",
         notes={
             "shows": recipe.words,
-            "controller": f"{recipe.controlled_by}; data/{GAINS_FILE}",
+            "controller": f"{recipe.controlled_by}; data/{recipe.gains}",
             "area": f"{pump.area!r} m^2",
             "lead": f"{pump.lead!r} m",
             "plunger_at_start": "0.0 m",

@@ -10,6 +10,10 @@ from collections.abc import Callable
 
 import pytest
 
+from softgrip.actuator import bending, frequency
+from softgrip.actuator import section as cross_section
+from softgrip.control import lqr
+from softgrip.dynamics import consistency, linear, ludwick
 from softgrip.ledger import judge, read_claims
 from softgrip.ledger.__main__ import expected
 from softgrip.materials import fitting, least_squares, power_curve, powerlaw
@@ -51,6 +55,41 @@ CASES: list[tuple[str, Callable, str, str, str]] = [
         "self.coef_[::-1] + ",
         "5.4-estimated-dragon-skin-20",
     ),
+    (
+        "Eq. (5.10): another factor",
+        linear.spring_constant,
+        "2 * young_modulus",
+        "4 * young_modulus",
+        "5.3-degrades-spring",
+    ),
+    (
+        "Eq. (5.11): another factor",
+        linear.moment_of_inertia,
+        "/ 12",
+        "/ 6",
+        "5.3-degrades-moment",
+    ),
+    (
+        "Eq. (5.13): the power left out",
+        ludwick.spring_constant,
+        "((n + 1) / n) ** n",
+        "1",
+        "5.3-degrades-force",
+    ),
+    (
+        "Eq. (5.14): the exponent of Eq. (3.8)",
+        ludwick.modified_moment,
+        "0.5**n",
+        "0.5 ** (1 + n)",
+        "5.3-against-moment-3",
+    ),
+    (
+        "a cantilever whose moment does not fall along it",
+        consistency.tip_loaded_angle,
+        "(length - s)",
+        "length",
+        "5.3-factor-of-a-tip-force",
+    ),
 ]
 
 
@@ -75,6 +114,59 @@ CHAPTER_4: list[tuple[str, Callable, str, str, str]] = [
         "compliance_slope - 2",
         "compliance_slope + 2",
         "4.3-growth-above-zero",
+    ),
+]
+
+
+CHAPTER_3: list[tuple[str, Callable, str, str, str]] = [
+    (
+        "Eq. (3.3): the bottom does not pull",
+        cross_section.wall_area,
+        "w * (b + t)",
+        "w * t",
+        "3.4-half-newton-metre",
+    ),
+    (
+        "Eq. (3.4): the wall pushes",
+        cross_section.torque,
+        "(b - t)",
+        "(b + t)",
+        "3.4-half-newton-metre",
+    ),
+    (
+        "Eq. (3.8): as Eq. (5.14) has it",
+        bending.modified_moment,
+        "0.5 ** (1 + n)",
+        "0.5**n",
+        "table-3.3-estimated-design-1-e1-",
+    ),
+    (
+        "Eq. (3.10): no elongation",
+        bending.elongation,
+        "1 + pressure",
+        "1 + 0 * pressure",
+        "3.4-model-angle",
+    ),
+    (
+        "Eq. (3.14): a constant moment in place of the force at the tip",
+        frequency.spring_constant,
+        "((n + 1) / n) ** n * ",
+        "",
+        "table-3.3-estimated-design-2-e1-",
+    ),
+    (
+        "Eq. (3.23): the frequency not squared",
+        frequency.stiffness_product_for,
+        "frequency**2",
+        "frequency",
+        "table-3.2-top-1",
+    ),
+    (
+        "Eq. (3.30): a reference that enters by another gain",
+        lqr.closed_loop,
+        "gain[0, 0]",
+        "gain[0, 1]",
+        "3.5-lqr-error",
     ),
 ]
 
@@ -105,4 +197,9 @@ def test_broken_equation_of_chapter_5_turns_a_verdict(case, monkeypatch, request
 
 @pytest.mark.parametrize("case", CHAPTER_4, ids=lambda case: case[0])
 def test_broken_equation_of_chapter_4_turns_a_verdict(case, monkeypatch):
+    turns(*case, monkeypatch)
+
+
+@pytest.mark.parametrize("case", CHAPTER_3, ids=lambda case: case[0])
+def test_broken_equation_of_chapter_3_turns_a_verdict(case, monkeypatch):
     turns(*case, monkeypatch)

@@ -1,0 +1,168 @@
+"""The linear quadratic regulator of Section 3.4: finger and pump, weights, gain, closed loop.
+
+The state of Eq. (3.26) is said to be ``[theta, theta', theta'']``, but Eq. (3.28) has the gain of
+the plant in C and a 1 in B: its states are then the angle and its derivatives *divided by that
+gain*. The matrices are taken at their word. Were the gain in B, the weights would act as others
+with p times its square do, and R the same; what holds for every p holds for that reading too.
+"""
+
+from dataclasses import dataclass
+from typing import final
+
+import control
+import numpy as np
+
+from softgrip.control.step_metrics import settling_time
+from softgrip.dynamics.second_order import SecondOrder
+from softgrip.errors import InvalidInputError
+from softgrip.materials.arrays import Floats, check_positive, read_only
+
+FINGER = SecondOrder(2.86, 0.7)
+"""Design 1: natural frequency of Table 3.3, damping ratio of Section 3.4, without its gain."""
+
+
+@final
+@dataclass(frozen=True)
+class Weights:
+    """The weights of Eq. (3.29), ``Q = p diag(q)`` and R; by default those printed.
+
+    Attributes
+    ----------
+    p
+        Common factor, > 0.
+    q
+        Weights of the three states: the first > 0, the others >= 0.
+    R
+        Weight of the command, > 0. The gain depends on ``p / R`` alone.
+
+    Raises
+    ------
+    InvalidInputError
+        If a value is outside its range.
+    """
+
+    p: float = 100.0
+    q: tuple[float, float, float] = (1.0, 0.3, 0.0)
+    R: float = 1.0
+
+    def __post_init__(self) -> None:
+        check_positive(p=self.p, R=self.R, q1=self.q[0])
+        if len(self.q) != 3 or not all(np.isfinite(w) and w >= 0 for w in self.q):
+            raise InvalidInputError("q", expected="three finite numbers >= 0", got=self.q)
+
+    @property
+    def Q(self) -> Floats:
+        """Q of Eq. (3.29), shape (3, 3)."""
+        return self.p * np.diag(self.q)
+
+
+def input_gain(finger: SecondOrder, pump_gain: float, set_speed: float) -> float:
+    """Return the numerator of Eq. (3.25), ``l A_s omega_m c / (2 pi C_s M)``, rad/s^3.
+
+    It holds the set motor speed omega_m, so the input u of Eq. (3.26) is a share of that speed. In
+    the terms of Eq. (4.14), ``c / M`` is the finger's static gain times omega_n squared.
+
+    Parameters
+    ----------
+    finger
+        With its static gain, rad/Pa.
+    pump_gain
+        ``l A_s / (2 pi C_s)``, Pa/s per rad/s, > 0.
+    set_speed
+        omega_m, rad/s, > 0.
+    """
+    check_positive(pump_gain=pump_gain, set_speed=set_speed)
+    return finger.gain * finger.natural_frequency**2 * pump_gain * set_speed
+
+
+def canonical_form(finger: SecondOrder, gain: float = 1.0) -> control.StateSpace:
+    """Return Eq. (3.26)-(3.28), from the share u to the angle [rad].
+
+    Parameters
+    ----------
+    finger
+        Its natural frequency and damping ratio; its static gain is in `gain`.
+    gain
+        The element of C, rad/s^3: see `input_gain`.
+    """
+    w, z = finger.natural_frequency, finger.damping_ratio
+    return control.ss(
+        [[0, 1, 0], [0, 0, 1], [0, -(w**2), -2 * z * w]],
+        [[0], [0], [1]],
+        [[gain, 0, 0]],
+        0,
+        inputs=["share"],
+        outputs=["angle"],
+        states=["angle/gain", "rate/gain", "acceleration/gain"],
+    )
+
+
+def derivatives_from_full_state(finger: SecondOrder) -> Floats:
+    """Return the matrix from the states of `full_state_space` to angle, rate and acceleration.
+
+    Those are pressure, angle and rate; the acceleration follows from them by Eq. (4.13). Divided by
+    `input_gain` the result is the state of `canonical_form`.
+
+    Returns
+    -------
+    ndarray
+        Shape (3, 3), read-only.
+    """
+    w, z = finger.natural_frequency, finger.damping_ratio
+    rows = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [finger.gain * w**2, -(w**2), -2 * z * w]]
+    return read_only(rows)
+
+
+def lqr_gain(finger: SecondOrder, weights: Weights) -> Floats:
+    """Return ``K = R^-1 B' Y`` of Eq. (3.30), with Y from the Riccati equation, shape (3,).
+
+    Examples
+    --------
+    >>> lqr_gain(FINGER, Weights()).round(3).tolist()
+    [10.0, 6.07, 1.304]
+    """
+    plant = canonical_form(finger)
+    gain, _, _ = control.lqr(plant.A, plant.B, weights.Q, weights.R)
+    return np.asarray(gain[0], dtype=np.float64)
+
+
+def closed_loop(finger: SecondOrder, weights: Weights) -> control.StateSpace:
+    """Return the regulator about a reference, from reference to angle [both rad].
+
+    The plant integrates, so ``u = -K (x - x_reference)`` leaves no error. The gain in C cancels.
+    """
+    plant, gain = canonical_form(finger), lqr_gain(finger, weights)[None, :]
+    return control.ss(
+        plant.A - plant.B @ gain, plant.B * gain[0, 0], plant.C, 0, inputs=1, outputs=1
+    )
+
+
+def step_response(
+    finger: SecondOrder, weights: Weights, *, points: int = 2001
+) -> tuple[Floats, Floats]:
+    """Return time [s] and response of the closed loop to a unit step, over 12 time constants.
+
+    The slowest pole sets the length: what is left at its end is some 1e-5.
+    """
+    loop = closed_loop(finger, weights)
+    time = np.linspace(0, 12 / float(-loop.poles().real.max()), points)
+    found = control.forced_response(loop, time, np.ones((1, points)), squeeze=False)
+    return time, np.asarray(found.outputs[0], dtype=np.float64)
+
+
+def linear_settling_time(finger: SecondOrder, weights: Weights, band: float) -> float:
+    """Return the settling time of the closed loop without limit, noise or sampling, s.
+
+    Parameters
+    ----------
+    finger, weights
+        Plant and design.
+    band
+        Share of the step, 0 to 1.
+
+    Examples
+    --------
+    >>> round(linear_settling_time(FINGER, Weights(), 0.02), 2)  # printed: 0.8
+    4.28
+    """
+    return float(settling_time(*step_response(finger, weights), final=1.0, band=band))

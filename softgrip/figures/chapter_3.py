@@ -1,0 +1,250 @@
+"""Figures of Chapter 3 on the models: which n, the optimum, and how the finger bends."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from softgrip.actuator.bending import Finger, free_bending
+from softgrip.actuator.design import DesignProblem, objective
+from softgrip.actuator.frequency import natural_frequency
+from softgrip.actuator.optimize import optimal_design
+from softgrip.actuator.printed import (
+    ANGLE_POWER,
+    FREQUENCY_MASS,
+    FREQUENCY_POWER,
+    SUM_POWER,
+    section,
+)
+from softgrip.actuator.section import Section, torque
+from softgrip.figures.exhibit import figure
+from softgrip.figures.finger_drawing import draw_bent, draw_section
+from softgrip.figures.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    MEASURED,
+    ORANGE,
+    PRINTED,
+    PURPLE,
+    SKY,
+    VERMILION,
+    WIDTH,
+)
+from softgrip.provenance import Provenance
+from softgrip.rig.static_tests import DESIGNS, blocked_torque, settled_angles
+from softgrip.units import DEG, MM, MPa
+
+TABLE_3_1, TABLE_3_2 = "actuator/table_3_1.csv", "actuator/table_3_2.csv"
+CALIBRATION = "calibration/simulated_rig.csv"
+OPTIMUM = section("Opt. parameters")
+FX_PRO = 0.26 * MPa
+DOTS: dict[str, Any] = {"ls": "none", "ms": 4.5}
+LOOK: dict[str, dict[str, Any]] = {
+    "Design 1(E1)": {"marker": "o", "color": MEASURED, **DOTS},
+    "Design 2(E1)": {"marker": "s", "color": PURPLE, "mfc": "none", **DOTS},
+    "Design 3(E2)": {"marker": "^", "color": VERMILION, "mfc": "none", **DOTS},
+}
+"""How a tested design is drawn."""
+
+
+@figure(
+    "3.3",
+    caption="The cross-section of Design 1 with its four dimensions (our drawing of (c) and (d)). "
+    "Air of pressure P fills the chamber above the neutral surface; the rubber around it pulls by "
+    "the stress of Eq. (3.3).",
+    alt="A rectangle 30 millimetres wide and 24 high. Walls of 1.5 millimetres enclose a chamber "
+    "that begins at the neutral surface, 4 millimetres above the bottom. Arrows mark a from the "
+    "neutral surface to the top, b to the bottom, the width w and the wall t.",
+    provenance=Provenance.PRINTED,
+    data=(TABLE_3_1,),
+)
+def figure_3_3() -> Figure:
+    """Draw the section with its dimensions."""
+    drawn = Figure(figsize=(WIDTH, 3.6))
+    axes = drawn.subplots()
+    draw_section(axes, OPTIMUM)
+    a, b, w, t = (x / MM for x in (OPTIMUM.top, OPTIMUM.bottom, OPTIMUM.width, OPTIMUM.wall))
+    for name, start, end, place in (
+        ("a", (18, 0), (18, a), (19, a / 2)),
+        ("b", (18, -b), (18, 0), (19, -b / 2)),
+        ("w", (-w / 2, -6.5), (w / 2, -6.5), (0, -8.7)),
+        ("t", (-w / 2, 8), (-w / 2 + t, 8), (-w / 2 - 2.5, 8)),
+    ):
+        axes.annotate("", end, start, arrowprops={"arrowstyle": "<->", "shrinkA": 0, "shrinkB": 0})
+        axes.text(*place, name, ha="center", va="center", style="italic")
+    axes.text(-w / 2 - 1, 0, "neutral\nsurface", ha="right", va="center", fontsize=9, color=GREY)
+    axes.set(xlim=(-25, 23), ylim=(-11, 23), xlabel="mm", ylabel="mm", aspect="equal")
+    return drawn
+
+
+@figure(
+    "3.A",
+    caption="Three printed results of one finger (Design 1), over the power n that none of them "
+    "states: recomputed over printed. Each curve passes 1 at another n. Dotted: the n that "
+    "Tables 5.1 and 5.2 print for its rubber.",
+    alt="Three curves of recomputed over printed value against n. The natural frequency falls and "
+    "crosses one at n = 1.05; the bending angle rises and crosses it at 1.56; the sum of the "
+    "objective rises more slowly and crosses it at 2.08. Dotted lines stand at 2.17, 2.37 and 2.5.",
+    provenance=Provenance.PRINTED,
+    data=(TABLE_3_1, "actuator/table_3_3.csv"),
+)
+def figure_3_a() -> Figure:
+    """Draw what n each of three printed results asks for."""
+    drawn = Figure(figsize=(WIDTH, 3.4))
+    axes = drawn.subplots()
+    powers = np.linspace(1, 2.6, 81)
+    fingers = [Finger(OPTIMUM, fractional_power=float(n)) for n in powers]
+    problems = [DesignProblem(fractional_power=float(n)) for n in powers]
+    curves = (
+        ("frequency, 2.62 rad/s", [natural_frequency(f, FREQUENCY_MASS) / 2.62 for f in fingers],
+         BLUE, "-", FREQUENCY_POWER),
+        ("angle, 290 deg", [free_bending(f, 0.15 * MPa) / (290 * DEG) for f in fingers],
+         ORANGE, "--", ANGLE_POWER),
+        ("sum, 2.36", [objective(p, OPTIMUM) / 2.36 for p in problems], GREEN, "-.", SUM_POWER),
+    )  # fmt: skip
+    for label, values, colour, dash, crossing in curves:
+        axes.plot(powers, np.ravel(values), color=colour, ls=dash, label=label)
+        axes.plot([crossing], [1], "o", color=colour)
+    axes.axhline(1, color=GREY, lw=1)
+    for printed in (2.174, 2.365, 2.5):
+        axes.axvline(printed, color=GREY, ls=":", lw=1)
+    axes.set(xlabel="n", ylabel="recomputed / printed", ylim=(0, 1.75), xlim=(1, 2.6))
+    axes.legend(loc="upper center", ncols=1)
+    return drawn
+
+
+@figure(
+    "3.B",
+    caption="The sum of Eq. (3.20) over a and b (w = 30 mm, t = 1.5 mm, n = 1.045, 0.15 MPa), and "
+    "where its constraints end. With the ranges of Section 3.3 the best section is at the upper "
+    "right of the box; the printed one is not on its edge. Dashed: the natural frequency of "
+    "Eq. (3.16) in rad/s.",
+    alt="Contours over a from 14 to 24 and b from 2 to 5 millimetres. The sum grows to the upper "
+    "right; a line from upper left to lower right marks the largest height of 25 millimetres. The "
+    "best section lies at b = 5 and a = 20; the printed one at b = 4 and a = 20. Dashed lines of "
+    "constant frequency run parallel to those of constant height.",
+    provenance=Provenance.PRINTED,
+    data=(TABLE_3_1, TABLE_3_2),
+)
+def figure_3_b() -> Figure:
+    """Draw the objective over the heights above and below the neutral surface."""
+    drawn = Figure(figsize=(WIDTH, 3.6))
+    axes = drawn.subplots()
+    problem = DesignProblem(fractional_power=FREQUENCY_POWER)
+    bounds = problem.bounds
+    a, b = np.meshgrid(np.linspace(*bounds.top, 61), np.linspace(*bounds.bottom, 61))
+    sections = Section(a, b, bounds.width[1], bounds.wall[0])
+    values = objective(problem, sections)
+    frequency = natural_frequency(problem.finger(sections), FREQUENCY_MASS)
+    allowed = a + b <= bounds.height[1] * (1 + 1e-9)
+    filled = axes.contourf(a / MM, b / MM, np.where(allowed, values, np.nan), 12, cmap="cividis")
+    drawn.colorbar(filled, label="sum of Eq. (3.20)")
+    lines = axes.contour(a / MM, b / MM, frequency, [1.8, 2.4, 2.6], colors="white",
+                         linestyles="--", linewidths=1)  # fmt: skip
+    axes.clabel(lines, fontsize=8)
+    edge = bounds.height[1] / MM
+    axes.plot([edge - 5, edge - 2], [5, 2], color="black", lw=1.4, label="largest height")
+    best = optimal_design(problem).section
+    axes.plot([best.top / MM], [best.bottom / MM], "*", color=VERMILION, ms=12, mec="white",
+              label="best", clip_on=False, zorder=5)  # fmt: skip
+    axes.plot([20], [4], "o", color=SKY, mec="black", label="printed")
+    axes.set(xlabel="a (mm)", ylabel="b (mm)", xlim=(14, 24), ylim=(2, 5))
+    axes.grid(visible=False)
+    axes.legend(loc="lower left", frameon=True, framealpha=0.9)
+    return drawn
+
+
+@figure(
+    "3.9",
+    caption="Torque of the finger held straight, over pressure: Eq. (3.4), and the blocked-torque "
+    "test of three designs on the *simulated* rig, which is calibrated to the printed 0.359 N m of "
+    "Design 1 at 0.25 MPa (ring) and to the plateau of about 0.15 N m at which Design 3 buckles. "
+    "The torque of Design 2 is not printed; the rig has that of Design 1.",
+    alt="Torque over pressure up to 0.25 megapascal. The equation is a straight line to 0.51 "
+    "newton metres. The simulated tests of Designs 1 and 2 lie on a lower straight line that ends "
+    "at 0.36; Design 3 follows it up to 0.1 megapascal and then stays at 0.15.",
+    provenance=Provenance.SIMULATED,
+    data=(CALIBRATION, TABLE_3_1),
+)
+def figure_3_9() -> Figure:
+    """Draw blocked torque over pressure: model and simulated rig."""
+    drawn = Figure(figsize=(WIDTH, 3.4))
+    axes = drawn.subplots()
+    pressure = np.linspace(0, 0.25, 51) * MPa
+    axes.plot(
+        pressure / MPa, torque(OPTIMUM, pressure), color=BLUE, label="Eq. (3.4), (E1) and (E2)"
+    )
+    tested = np.linspace(0, 0.25, 11) * MPa
+    for name, design in DESIGNS.items():
+        found = blocked_torque(design.rig().finger, tested, buckling_torque=design.buckling_torque)
+        axes.plot(tested / MPa, found, **LOOK[name], label=f"{name}, simulated")
+    axes.plot([0.25], [0.359], "o", ms=12, mfc="none", color=PRINTED, label="printed, measured")
+    axes.set(xlabel="pressure (MPa)", ylabel="torque (N m)", ylim=(0, 0.56), xlim=(0, 0.26))
+    axes.legend(loc="upper left")
+    return drawn
+
+
+@figure(
+    "3.10",
+    caption="Bending angle of the free finger over pressure: Eq. (3.10) with the modulus of Dragon "
+    "Skin 20 (E1) and of FX-Pro (E2), with the n that gives the printed 290 deg of E1 (solid) and "
+    "with those that Table 5.1 prints (dotted); and three designs on the *simulated* rig, "
+    "calibrated to the printed 206, 201 and 232 deg (rings), the mean of seven runs.",
+    alt="Angle over pressure up to 0.15 megapascal. The solid model curves reach 290 and about 400 "
+    "degrees; the dotted ones rise far more steeply. The simulated tests rise steeply first, then "
+    "flatten, and end at the printed 206, 201 and 232 degrees, the first two almost on each other.",
+    provenance=Provenance.SIMULATED,
+    data=(CALIBRATION, TABLE_3_1, "materials/table_5_1.csv"),
+)
+def figure_3_10() -> Figure:
+    """Draw free bending over pressure: model and simulated rig."""
+    drawn = Figure(figsize=(WIDTH, 3.8))
+    axes = drawn.subplots()
+    pressure = np.linspace(0, 0.15, 61) * MPa
+    for name, modulus, tabled, colour in (
+        ("(E1)", 0.34 * MPa, 2.5, BLUE), ("(E2)", FX_PRO, 1.538, ORANGE)
+    ):  # fmt: skip
+        for n, dash in ((ANGLE_POWER, "-"), (tabled, ":")):
+            angle = free_bending(
+                Finger(OPTIMUM, young_modulus=modulus, fractional_power=n), pressure
+            )
+            axes.plot(pressure / MPa, angle / DEG, color=colour, ls=dash,
+                      label=f"Eq. (3.10) {name}, n = {n:g}")  # fmt: skip
+    tested = np.linspace(0, 0.15, 11) * MPa
+    for name, printed in zip(DESIGNS, (206, 201, 232), strict=True):
+        angles = settled_angles(DESIGNS[name].rig(), tested).mean(axis=0)
+        axes.plot(tested / MPa, angles / DEG, **LOOK[name], label=f"{name}, simulated")
+        axes.plot([0.15], [printed], "o", ms=12, mfc="none", color=PRINTED)
+    axes.set(xlabel="pressure (MPa)", ylabel="angle (deg)", ylim=(0, 500), xlim=(0, 0.157))
+    axes.legend(loc="upper left", fontsize=8.5)
+    return drawn
+
+
+@figure(
+    "3.11",
+    caption="Side view of Design 1 at six pressures, drawn from Eq. (3.10) as an arc, with the n "
+    "that gives the printed 290 deg at 0.15 MPa. (The dissertation shows photographs.)",
+    alt="Six side views of a finger that hangs from one point. At zero pressure it is straight; "
+    "with each step of 0.03 megapascal it curls further, until at 0.15 megapascal it has turned "
+    "by 290 degrees.",
+    provenance=Provenance.PRINTED,
+    data=(TABLE_3_1,),
+)
+def figure_3_11() -> Figure:
+    """Draw the bent finger at each pressure."""
+    drawn = Figure(figsize=(WIDTH, 4.2))
+    panels = drawn.subplots(2, 3, sharex=True, sharey=True)
+    finger = Finger(OPTIMUM, fractional_power=ANGLE_POWER)
+    for axes, pressure in zip(panels.flat, np.linspace(0, 0.15, 6) * MPa, strict=True):
+        angle = float(free_bending(finger, pressure))
+        # The rubber that stretches lies above the neutral surface, which keeps its length.
+        draw_bent(axes, OPTIMUM, finger.length, angle, BLUE, f"{pressure / MPa:.2f} MPa")
+        axes.set_title(f"{pressure / MPa:.2f} MPa\n{angle / DEG:.0f} deg", fontsize=9.5)
+        axes.set_aspect("equal")
+        axes.set(xlim=(-50, 105), ylim=(-95, 35))
+    for axes in panels[-1]:
+        axes.set_xlabel("mm")
+    for axes in panels[:, 0]:
+        axes.set_ylabel("mm")
+    return drawn

@@ -1,0 +1,162 @@
+"""Figures of Chapter 3 on control: the regulator of Section 3.4."""
+
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from softgrip.control.limited_lqr import best_within_limit, limited_loop
+from softgrip.control.loop import SPEED_LIMIT
+from softgrip.control.lqr import FINGER, Weights, lqr_gain, step_response
+from softgrip.control.lqr_limit import certificate, closed_loop_poles
+from softgrip.control.minimum_time import minimum_settling_time
+from softgrip.control.step_metrics import settling_time
+from softgrip.dynamics.second_order import full_state_space
+from softgrip.figures.chapter_4 import simulated
+from softgrip.figures.exhibit import figure
+from softgrip.figures.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    LINEAR,
+    MEASURED,
+    PRINTED,
+    VERMILION,
+    WIDTH,
+)
+from softgrip.provenance import Provenance
+from softgrip.rig.identified_model import identified_model
+from softgrip.rig.log_reader import read_log
+from softgrip.rig.lqr_gains import FILE as GAINS
+from softgrip.rig.lqr_gains import designed_on
+from softgrip.units import DEG
+
+LOGS = ("lqr-printed", "lqr-fast")
+FASTER = Weights(p=30_000.0, q=(1.0, 0.03, 0.0))
+"""Weights with which the linear loop settles within 2 % in 0.8 s."""
+PRINTED_TIME = 0.8
+BANDS = {"2 %": 0.02, "5 %": 0.05, "10 %": 0.1}
+RUNS = 100
+
+
+@figure(
+    "3.12",
+    caption="A step to 60 deg under two regulators: (a) with the printed weights, frequency and "
+    "damping ratio, and a differentiator; (b) on the identified model with ten times p, a tenth of "
+    "the weight on the rate, and an observer. Each on its own linear model with the motor's limit, "
+    "and on a rig (those of the book on the *simulated* one), with its command as a share of "
+    "5 rev/s. The text does not say how large its step was; it prints a settling time of 0.8 s.",
+    alt="Two pairs of panels over six seconds, angle and command. With the printed weights the "
+    "angle creeps up to 60 degrees in about three seconds; with the faster design it is there in "
+    "about 1.3 seconds, its command at full speed one way and then the other.",
+    provenance=Provenance.SIMULATED,
+    data=(*(f"simulated/{name}.csv" for name in LOGS), GAINS),
+)
+def figure_3_12(logs: tuple[Path | str, ...] = ()) -> Figure:
+    """Draw both regulators on their models and on a rig; ``logs`` gives two of another rig."""
+    drawn = Figure(figsize=(WIDTH, 7.0))
+    panels = drawn.subplots(4, 1, sharex=True, height_ratios=(2, 1, 2, 1))
+    model = identified_model()
+    paths = logs or tuple(simulated(name) for name in LOGS)
+    titles = ("(a) printed weights", "(b) faster design")
+    for k, (path, design, title) in enumerate(zip(paths, ("printed", "fast"), titles, strict=True)):
+        angle, command = panels[2 * k : 2 * k + 2]
+        log = read_log(path)
+        finger, weights = designed_on(design, model)
+        step = float(log["reference"][-1])
+        found = limited_loop(finger, model.pump_gain, lqr_gain(finger, weights), step)
+        rig = str(log.header.provenance)
+        angle.plot(log["time"], log["reference"] / DEG, color=PRINTED, lw=1, label="reference")
+        angle.plot(log["time"], log["angle"] / DEG, color=MEASURED, lw=1, label=rig)
+        angle.plot(found.time, found.measured / DEG, color=LINEAR, ls="--", label="own model")
+        # A row of a log tells the command that was held until its time.
+        command.step(log["time"], log["command"] / SPEED_LIMIT, color=MEASURED, lw=0.7, where="pre")
+        command.step(found.time, found.command / SPEED_LIMIT, color=LINEAR, ls="--", where="post")
+        angle.axvline(PRINTED_TIME, color=GREY, ls=":")
+        angle.set(title=title, ylabel="angle (deg)", xlim=(0, 6), ylim=(-5, 80))
+        command.set(ylabel="u", ylim=(-1.1, 1.1))
+    panels[-1].set_xlabel("time (s)")
+    handles, labels = panels[0].get_legend_handles_labels()
+    drawn.legend(handles, labels, loc="outside upper center", ncols=3)
+    return drawn
+
+
+@figure(
+    "3.C",
+    caption="The closed loop over p, all else as printed. Above: the real parts of its poles; the "
+    "real one never passes $-\\sqrt{1/0.3} = -1.83$ rad/s. Below: settling times of the linear "
+    "loop, without limit or noise, with the printed weight on the rate and, dashed, with a tenth "
+    "of it. Dotted: the printed p and the printed 0.8 s.",
+    alt="Above, the real pole falls with p and levels off at a dashed line at minus 1.83, while "
+    "the pair goes on. Below, the settling times within 2, 5 and 10 percent fall and level off at "
+    "2.1, 1.6 and 1.3 seconds; only the dashed curve passes under 0.8 seconds.",
+    provenance=Provenance.PRINTED,
+)
+def figure_3_c() -> Figure:
+    """Draw poles and settling times over p."""
+    drawn = Figure(figsize=(WIDTH, 5.2))
+    poles_axes, time_axes = drawn.subplots(2, 1, sharex=True)
+    p = np.logspace(0, 6, 37)
+    poles = np.array([closed_loop_poles(FINGER, Weights(p=x)) for x in p]).real
+    poles_axes.semilogx(p, poles[:, 0], color=BLUE, label="real pole")
+    poles_axes.semilogx(p, poles[:, 1], color=GREY, ls="-.", label="pair")
+    poles_axes.axhline(
+        certificate(FINGER, Weights()).pole_bound, color=VERMILION, ls="--", lw=1, label="bound"
+    )
+    poles_axes.set(ylabel="real part (rad/s)", ylim=(-6, 0.2))
+    poles_axes.legend(loc="lower left")
+    as_printed = _settling_over_p(0.3).T
+    for name, settled, colour in zip(BANDS, as_printed, (BLUE, LINEAR, GREEN), strict=True):
+        time_axes.loglog(p, settled, color=colour, label=f"within {name}")
+    time_axes.loglog(
+        p, _settling_over_p(0.03)[:, 0], color=BLUE, ls="--", label="2 %, a tenth of q2"
+    )
+    time_axes.axhline(PRINTED_TIME, color=PRINTED, ls=":")
+    for axes in (poles_axes, time_axes):
+        axes.axvline(Weights().p, color=PRINTED, ls=":")
+    time_axes.set(xlabel="p", ylabel="settling time (s)", ylim=(0.4, 30))
+    time_axes.set_yticks([0.5, 1, 2, 5, 10, 20], ["0.5", "1", "2", "5", "10", "20"])
+    time_axes.legend(loc="upper right")
+    return drawn
+
+
+@lru_cache(maxsize=2)
+def _settling_over_p(q2: float) -> Any:
+    rows = []
+    for p in np.logspace(0, 6, 37):
+        time, angle = step_response(FINGER, Weights(p=float(p), q=(1.0, q2, 0.0)))
+        rows.append([settling_time(time, angle, final=1.0, band=b) for b in BANDS.values()])
+    return np.array(rows)
+
+
+@figure(
+    "3.D",
+    caption="The least settling time over the size of the step that *any* controller can have "
+    "within 5 rev/s, on the linear model identified from the simulated rig's logs, and what a "
+    "regulator with true states reaches on it at 25 ms (dashed: for each step the best of a grid "
+    "of weights). Dotted: the printed 0.8 s.",
+    alt="Three rising curves, for 2, 5 and 10 percent, from about 0.6 seconds at 10 degrees to 1.4 "
+    "at 90; they cross 0.8 seconds between 20 and 30 degrees. The dashed curve lies close above.",
+    provenance=Provenance.SIMULATED,
+    data=("simulated/push-a.csv",),
+)
+def figure_3_d() -> Figure:
+    """Draw the bound on any controller, and the regulator, over the step."""
+    drawn = Figure(figsize=(WIDTH, 3.2))
+    axes = drawn.subplots()
+    steps = np.arange(10, 91, 10)
+    model = identified_model()
+    system = full_state_space(model.finger, model.pump_gain)
+    for (name, band), colour in zip(BANDS.items(), (BLUE, LINEAR, GREEN), strict=True):
+        least = [
+            minimum_settling_time(system, d * DEG, SPEED_LIMIT, band=band * d * DEG) for d in steps
+        ]
+        axes.plot(steps, least, "o-", color=colour, label=f"within {name}")
+    reached = best_within_limit(model.finger, model.pump_gain, steps * DEG, 0.02)
+    axes.plot(steps, [best.time for best in reached], color=BLUE, ls="--", label="LQR, 2 %")
+    axes.axhline(PRINTED_TIME, color=PRINTED, ls=":")
+    axes.set(xlabel="step (deg)", ylabel="settling time (s)", xlim=(0, 95), ylim=(0, None))
+    axes.legend(loc="lower right")
+    return drawn

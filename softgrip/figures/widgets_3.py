@@ -1,0 +1,93 @@
+"""What the sliders of Chapter 3 draw."""
+
+from textwrap import wrap
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.figure import Figure
+
+from softgrip.actuator.bending import Finger, free_bending
+from softgrip.actuator.design import DesignProblem, FrequencyBand, InfeasibleDesignError
+from softgrip.actuator.frequency import natural_frequency
+from softgrip.actuator.optimize import optimal_design
+from softgrip.actuator.printed import FREQUENCY_MASS, FREQUENCY_POWER
+from softgrip.actuator.section import Section, torque
+from softgrip.figures.finger_drawing import draw_section
+from softgrip.figures.style import BLUE, ORANGE, WIDTH, style
+from softgrip.units import DEG, MM, MPa
+
+
+def _draw(finger: Finger, pressure: float, title: str, axis: tuple[float, float]) -> Figure:
+    """Draw a section, its torque and its bending up to a pressure, Pa; `axis` holds axis ends."""
+    section = finger.section
+    over = np.linspace(0, pressure, 31)
+    pushed, bent = torque(section, over), free_bending(finger, over) / DEG
+    frequency = natural_frequency(finger, FREQUENCY_MASS)
+    with style(), mpl.rc_context({"figure.constrained_layout.use": False}):
+        # Axes at fixed places: a layout engine would move them from frame to frame.
+        drawn = Figure(figsize=(WIDTH, 3.2))
+        left = drawn.add_axes((0.09, 0.2, 0.36, 0.62))
+        upper = drawn.add_axes((0.6, 0.58, 0.34, 0.32))
+        lower = drawn.add_axes((0.6, 0.15, 0.34, 0.32))
+        draw_section(left, section)
+        left.set(xlim=(-18, 18), ylim=(-8, 27), xlabel="mm", aspect="equal")
+        left.set_title(title, fontsize=9.5)
+        drawn.text(0.09, 0.03, f"{frequency:.2f} rad/s with {FREQUENCY_MASS} kg", fontsize=9.5)
+        upper.plot(over / MPa, pushed, color=BLUE)
+        upper.set(ylim=(0, 0.6), xlim=(0, axis[0]))
+        upper.set_title(f"torque {pushed[-1]:.3f} N m", fontsize=9.5)
+        lower.plot(over / MPa, bent, color=ORANGE)
+        lower.set(ylim=(0, axis[1]), xlim=(0, axis[0]), xlabel="pressure (MPa)")
+        lower.set_title(f"angle {bent[-1]:.0f} deg", fontsize=9.5)
+        upper.tick_params(labelbottom=False)
+    return drawn
+
+
+def draw_finger(top: float, bottom: float, wall: float, n: float) -> Figure:
+    """Draw a section 30 mm wide, its torque and its bending over pressure.
+
+    Parameters
+    ----------
+    top, bottom, wall
+        a, b and t, mm.
+    n
+        Fractional power.
+    """
+    section = Section(top * MM, bottom * MM, 30 * MM, wall * MM)
+    title = f"a {top:g}, b {bottom:g}, t {wall:g} mm"
+    return _draw(Finger(section, fractional_power=n), 0.15 * MPa, title, (0.15, 700))
+
+
+def draw_best(low: float, width: float, pressure: float, modulus: float) -> Figure:
+    """Draw the best section for a frequency band, as Eq. (3.20) finds it, n = 1.045.
+
+    Parameters
+    ----------
+    low, width
+        Least frequency of the band and its width, rad/s.
+    pressure
+        MPa.
+    modulus
+        Young's modulus, MPa.
+    """
+    problem = DesignProblem(
+        pressure=pressure * MPa,
+        young_modulus=modulus * MPa,
+        fractional_power=FREQUENCY_POWER,
+        band=FrequencyBand(low, low + width),
+    )
+    try:
+        section = optimal_design(problem).section
+    except InfeasibleDesignError as error:
+        return _refused(str(error))
+    title = f"a {section.top / MM:.1f}, b {section.bottom / MM:.1f}, w {section.width / MM:.1f} mm"
+    return _draw(problem.finger(section), pressure * MPa, title, (0.25, 500))
+
+
+def _refused(message: str) -> Figure:
+    """Draw what an infeasible problem says of itself."""
+    with style():
+        drawn = Figure(figsize=(WIDTH, 3.2))
+        text = "\n".join(wrap(message.replace("; ", ";\n"), 58, replace_whitespace=False))
+        drawn.text(0.04, 0.5, text, va="center", fontsize=9.5)
+    return drawn

@@ -1,0 +1,134 @@
+"""The regulators that Figure 3.12 runs on a rig; ``python -m softgrip.rig.lqr_gains``.
+
+The command identifies the rig from its logs, designs both and writes
+``data/control/lqr_gains.csv``; the logs are made with what stands there.
+
+`printed`
+    The printed weights, natural frequency and damping ratio, and the robust differentiator. The
+    constant c of Eq. (3.25) is "obtained by experimentation": here the static gain of the finger,
+    as identified from steps to 60 deg.
+`fast`
+    On the identified model, with ten times p and a tenth of q_2, and an observer: fed
+    by the differentiator this design swings.
+"""
+
+import csv
+from dataclasses import astuple, dataclass, fields
+from pathlib import Path
+
+from softgrip.control.differentiator import RobustDifferentiator
+from softgrip.control.loop import SPEED_LIMIT, Controller
+from softgrip.control.lqr import FINGER, Weights, input_gain, lqr_gain
+from softgrip.control.observer_feedback import ObserverFeedback
+from softgrip.control.state_feedback import StateFeedback
+from softgrip.dynamics.second_order import SecondOrder
+from softgrip.errors import UnknownNameError
+from softgrip.provenance import data_file, data_folder
+from softgrip.rig.identified_model import IdentifiedModel, identified_model
+
+FILE = "control/lqr_gains.csv"
+COMMAND = "python -m softgrip.rig.lqr_gains"
+
+FAST = Weights(p=1000.0, q=(1.0, 0.03, 0.0))
+"""Of `fast`. From p = 3000 on some runs of the simulated rig do not come to rest."""
+
+JERK = 10.0
+"""Of the differentiator, rad/s^3: the largest of the linear response to 60 deg, as its exactness
+asks for. With half of it a third of noisy linear loops end up swinging between the motor's limits,
+with more of it the derivatives are noisier."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of the file.
+
+    Attributes
+    ----------
+    design
+        "printed" or "fast".
+    p, q1, q2, q3, R
+        Weights.
+    natural_frequency, damping_ratio
+        Of the model, rad/s and dimensionless.
+    input_gain
+        As of `lqr.input_gain` with a set speed of 5 rev/s, rad/s^3.
+    k1, k2, k3
+        K of Eq. (3.30).
+    """
+
+    design: str
+    p: float
+    q1: float
+    q2: float
+    q3: float
+    R: float
+    natural_frequency: float
+    damping_ratio: float
+    input_gain: float
+    k1: float
+    k2: float
+    k3: float
+
+
+def designed_on(design: str, model: IdentifiedModel) -> tuple[SecondOrder, Weights]:
+    """Return the finger and the weights of a design, "printed" or "fast"."""
+    if design == "printed":
+        gain = model.finger.gain
+        return SecondOrder(FINGER.natural_frequency, FINGER.damping_ratio, gain), Weights()
+    return model.finger, FAST
+
+
+def write(path: Path | None = None) -> Path:
+    """Design the regulators, write the file and return its path."""
+    model = identified_model()
+    target = data_folder() / FILE if path is None else path
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with target.open("w", encoding="utf-8", newline="") as out:
+        out.write(f"# provenance: simulated\n# source: {COMMAND}\n")
+        table = csv.writer(out, lineterminator="\n")
+        table.writerow(entry.name for entry in fields(Row))
+        for name in ("printed", "fast"):
+            finger, weights = designed_on(name, model)
+            row = Row(
+                name,
+                weights.p,
+                *weights.q,
+                weights.R,
+                finger.natural_frequency,
+                finger.damping_ratio,
+                input_gain(finger, model.pump_gain, SPEED_LIMIT),
+                *lqr_gain(finger, weights).tolist(),
+            )
+            table.writerow(f"{x:.6g}" if isinstance(x, float) else x for x in astuple(row))
+    return target
+
+
+def read(path: Path | None = None) -> tuple[Row, ...]:
+    """Read the file, or another of its form."""
+    source = data_file(FILE).path if path is None else path
+    with source.open(encoding="utf-8", newline="") as lines:
+        rows = list(csv.reader(line for line in lines if not line.startswith("#")))[1:]
+    return tuple(Row(name, *map(float, numbers)) for name, *numbers in rows)
+
+
+def regulator(design: str) -> Controller:
+    """Return a regulator with its kept gains, from angles to motor speed.
+
+    Raises
+    ------
+    UnknownNameError
+        If there is no such design.
+    """
+    known = {row.design: row for row in read()}
+    if design not in known:
+        raise UnknownNameError("regulator", design, list(known))
+    row = known[design]
+    gain = (row.k1, row.k2, row.k3)
+    if design == "printed":
+        return StateFeedback(gain, row.input_gain, RobustDifferentiator(JERK))
+    finger = SecondOrder(row.natural_frequency, row.damping_ratio)
+    return ObserverFeedback(gain, finger, row.input_gain)
+
+
+if __name__ == "__main__":
+    print(write())

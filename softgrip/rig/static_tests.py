@@ -1,0 +1,104 @@
+"""The tests at rest of Section 3.4 on the simulated rig: blocked torque and free bending.
+
+Torque and angle of each design are calibrated to one printed number each, so at that pressure they
+agree with the print by construction; what is shown at other pressures is the simulated rig's.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from softgrip.errors import InvalidInputError
+from softgrip.materials.arrays import Floats
+from softgrip.rig.calibration import design_1, design_2, design_3
+from softgrip.rig.chance import Chance
+from softgrip.rig.parameters import FingerParameters, RigParameters
+from softgrip.units import GRAM_FORCE, MM
+
+LENGTH = 94 * MM
+"""L_i of Eq. (3.24), m."""
+
+SCALE = 0.01 * GRAM_FORCE
+"""Step of the scale that the tip presses on, N (Section 3.4)."""
+
+
+@dataclass(frozen=True)
+class TestedDesign:
+    """A design of Figures 3.9 and 3.10.
+
+    Attributes
+    ----------
+    rig
+        Makes the simulated rig with it.
+    buckling_torque
+        Above which its structure gives way, N m (Section 3.4 for Design 3: about 0.15).
+    """
+
+    __test__ = False  # not a test, whatever pytest thinks of its name
+
+    rig: Callable[[], RigParameters]
+    buckling_torque: float = inf
+
+
+DESIGNS: Mapping[str, TestedDesign] = {
+    "Design 1(E1)": TestedDesign(design_1),
+    "Design 2(E1)": TestedDesign(design_2),
+    "Design 3(E2)": TestedDesign(design_3, buckling_torque=0.15),
+}
+
+
+def _gauge(pressure: ArrayLike) -> Floats:
+    gauge = np.asarray(pressure, dtype=np.float64)
+    if not (np.isfinite(gauge).all() and (gauge >= 0).all()):
+        raise InvalidInputError("pressure", expected="finite, >= 0 Pa", got=gauge.tolist())
+    return gauge
+
+
+def blocked_torque(
+    finger: FingerParameters, pressure: ArrayLike, *, buckling_torque: float = inf
+) -> Floats:
+    """Return the torque of Eq. (3.24), N m: the force on the scale, as it reads, times the length.
+
+    Parameters
+    ----------
+    finger
+        Held straight, so that its spring is at rest.
+    pressure
+        Gauge, Pa, >= 0, any shape.
+    buckling_torque
+        The torque that the finger's structure holds, N m.
+    """
+    pushed = np.minimum(finger.torque_per_pressure * _gauge(pressure), buckling_torque)
+    return np.asarray(np.rint(pushed / LENGTH / SCALE) * SCALE * LENGTH)
+
+
+def settled_angles(
+    rig: RigParameters, pressure: ArrayLike, *, runs: int = 7, seed: int = 2024
+) -> Floats:
+    """Return the angle at rest of several runs, rad, shape (runs, N).
+
+    Parameters
+    ----------
+    rig
+        Its finger, and how runs differ.
+    pressure
+        Gauge, Pa, >= 0, shape (N,).
+    runs, seed
+        As of `SimulatedRig`.
+
+    Examples
+    --------
+    >>> from softgrip.rig.calibration import design_1
+    >>> from softgrip.units import DEG
+    >>> alike = settled_angles(design_1(spread=False), [0.15e6], runs=1)
+    >>> round(float(alike[0, 0]) / DEG, 3)
+    206.0
+    """
+    finger = rig.finger
+    chance = Chance(rig.spread, seed=seed, first=0, runs=runs)
+    stiffness = finger.stiffness * chance.stiffness[:, None]
+    torque = finger.torque_per_pressure * _gauge(pressure)
+    return np.asarray((torque / stiffness) ** (1 / finger.fractional_power))
