@@ -1,1 +1,1 @@
-"""The finger as it is designed: section, torque, bending, natural frequency, optimal design, finite elements."""
+"""The finger as it is designed: section, torque, bending, frequency, optimum, finite elements."""

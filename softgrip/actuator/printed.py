@@ -13,7 +13,7 @@ from softgrip.provenance import data_file
 from softgrip.units import MM, MPa
 
 FREQUENCY_POWER = 1.045
-"""n with which Eq. (3.16) gives the 2.62 rad/s of Table 3.3 for Designs 1 and 2; none is printed."""
+"""n with which Eq. (3.16) gives the 2.62 rad/s of Table 3.3 for two designs; none is printed."""
 
 ANGLE_POWER = 1.56
 """n with which Eq. (3.10) gives the 290 deg of Section 3.4."""

@@ -59,7 +59,7 @@ class Exhibit:
 
 EXHIBITS: dict[tuple[Kind, str], Exhibit] = {}
 CHAPTERS = {
-    "3": ("chapter_3", "chapter_3_control", "tables_3", "tables_3_control"),
+    "3": ("chapter_3", "chapter_3_fem", "chapter_3_control", "tables_3", "tables_3_control"),
     "4": ("chapter_4", "chapter_4_control", "tables_4"),
     "5": (
         "chapter_5",

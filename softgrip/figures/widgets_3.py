@@ -10,7 +10,7 @@ from softgrip.actuator.bending import Finger, free_bending
 from softgrip.actuator.design import DesignProblem, FrequencyBand, InfeasibleDesignError
 from softgrip.actuator.frequency import natural_frequency
 from softgrip.actuator.optimize import optimal_design
-from softgrip.actuator.printed import FREQUENCY_MASS, FREQUENCY_POWER
+from softgrip.actuator.printed import ANGLE_POWER, FREQUENCY_MASS, FREQUENCY_POWER
 from softgrip.actuator.section import Section, torque
 from softgrip.figures.finger_drawing import draw_section
 from softgrip.figures.style import BLUE, ORANGE, WIDTH, style
@@ -43,7 +43,7 @@ def _draw(finger: Finger, pressure: float, title: str, axis: tuple[float, float]
     return drawn
 
 
-def draw_finger(top: float, bottom: float, wall: float, n: float) -> Figure:
+def draw_finger(top: float, bottom: float, wall: float, n: float = ANGLE_POWER) -> Figure:
     """Draw a section 30 mm wide, its torque and its bending over pressure.
 
     Parameters
@@ -58,17 +58,19 @@ def draw_finger(top: float, bottom: float, wall: float, n: float) -> Figure:
     return _draw(Finger(section, fractional_power=n), 0.15 * MPa, title, (0.15, 700))
 
 
-def draw_best(low: float, width: float, pressure: float, modulus: float) -> Figure:
+def draw_best(low: float, pressure: float, modulus: float, width: float = 0.4) -> Figure:
     """Draw the best section for a frequency band, as Eq. (3.20) finds it, n = 1.045.
 
     Parameters
     ----------
-    low, width
-        Least frequency of the band and its width, rad/s.
+    low
+        Least frequency of the band, rad/s.
     pressure
         MPa.
     modulus
         Young's modulus, MPa.
+    width
+        Of the band, rad/s.
     """
     problem = DesignProblem(
         pressure=pressure * MPa,
