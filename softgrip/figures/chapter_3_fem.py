@@ -40,7 +40,7 @@ def _judges() -> list[tuple[str, FemResult, str]]:
     floors = [r for r in read("groove_floor") if r.groove_floor in SHOWN_FLOORS]
     dashes = ("-.", "--", "-")
     grooved = [
-        (f"{CHAMBERS} chambers, groove floor at {r.groove_floor / MM:.0f} mm", r, dash)
+        (f"six chambers, groove at {r.groove_floor / MM:.0f} mm", r, dash)
         for r, dash in zip(floors, dashes, strict=True)
     ]
     return [("one chamber", beam, ":"), *grooved]

@@ -25,6 +25,9 @@ from softgrip.ledger import Entry, Verdict, ledger
 FOLDER = Path("_build/figures")
 """Where the book's build, which runs pages in the folder of the book, puts their pictures."""
 
+MOST_FILES = 4
+"""Data files that a provenance strip names; more are folded."""
+
 ROLE = re.compile(r"\{[a-z:]+\}`([^`]*)`")
 """A MyST role, which is for the book only."""
 
@@ -72,6 +75,10 @@ class Shown:
         item = self.exhibit
         origin = f"Dissertation {item.title}" if item.in_dissertation else "Not in the dissertation"
         files = [f"{f.path.name} ({f.provenance}, sha256 {f.digest})" for f in item.data]
+        if len(files) > MOST_FILES:
+            kinds = " and ".join(sorted({str(f.provenance) for f in item.data}))
+            words = f"<summary>{len(files)} files ({kinds})</summary>"
+            files = [f"<details>{words}{', '.join(files)}</details>"]
         files += [item.sources] if item.sources else []
         return [
             f"{origin}",

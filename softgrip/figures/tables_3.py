@@ -21,7 +21,7 @@ from softgrip.figures.exhibit import table
 from softgrip.ledger import Entry, ledger
 from softgrip.ledger.chapter_3 import estimated_frequency, rubber_weight
 from softgrip.provenance import Provenance
-from softgrip.units import MM, MPa
+from softgrip.units import MM
 
 
 def _entries() -> dict[str, Entry]:
@@ -117,8 +117,6 @@ def table_3_3_recomputed() -> pd.DataFrame:
             "as stated": f"{estimated_frequency(name):.2f}",
             "reread": f"{estimated_frequency(name, FREQUENCY_POWER, as_printed=False):.2f}",
             "verdict": verdicts[name],
-            "error": f"{row.error:.2f} %",
-            "E (MPa)": f"{row.young_modulus / MPa:.2f}",
             "weight": f"{row.weight:.2f}",
             "rubber": f"{rubber_weight(name):.2f}",
         }
@@ -129,7 +127,7 @@ def table_3_3_recomputed() -> pd.DataFrame:
 @table(
     "3.4",
     caption="Torque (N m) and bending angle (deg) of this design and of others in the literature, "
-    "as printed. Five bend further and two push harder than this design; none of them was designed "
+    "as printed. Four bend further and two push harder than this design; none of them was designed "
     "for a natural frequency.",
     provenance=Provenance.PRINTED,
     data=("actuator/table_3_4.csv",),
@@ -140,8 +138,8 @@ def table_3_4() -> pd.DataFrame:
     return pd.DataFrame(
         {
             "approach": f"{row['approach']} {row['reference']}",
-            "torque": row["torque"],
-            "angle": row["angle"],
+            "torque": row["torque"].replace("~", "about"),
+            "angle": row["angle"].replace(">", "above"),
             "controllability": row["controllability"] or "not considered",
         }
         for row in rows
@@ -162,7 +160,7 @@ def table_3_a() -> pd.DataFrame:
     rows = []
     for limits, bounds in (
         ("stated", Bounds()),
-        ("20 and 4 mm", Bounds(top=(14 * MM, 20 * MM), bottom=(2 * MM, 4 * MM))),
+        ("20, 4 mm", Bounds(top=(14 * MM, 20 * MM), bottom=(2 * MM, 4 * MM))),
     ):
         for n in (1.0, FREQUENCY_POWER, SUM_POWER, 2.5):
             problem = DesignProblem(fractional_power=n, bounds=bounds)
@@ -170,14 +168,14 @@ def table_3_a() -> pd.DataFrame:
             made = manufacturable(problem).section
             rows.append(
                 {
-                    "limits": limits,
+                    "limits of a, b": limits,
                     "n": f"{n:g}",
                     **_mm(found.design.section),
                     "sum": f"{found.design.objective:.3f}",
                     "iterations": found.design.iterations,
                     "boxes": found.certificate.boxes,
                     "proved": "yes" if found.certificate.proven else "no",
-                    "made": " / ".join(_mm(made).values()),
+                    "made": "/".join(_mm(made).values()),
                 }
             )
     return pd.DataFrame(rows)

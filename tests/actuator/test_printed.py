@@ -20,3 +20,12 @@ def test_heights_are_constant_over_the_variances():
 def test_unknown_section_lists_those_that_are():
     with pytest.raises(UnknownNameError, match="Variance 6"):
         section("Variance 7")
+
+
+def test_four_designs_of_table_3_4_bend_further_and_two_push_harder():
+    """As its caption says."""
+    own, *others = (
+        [float(row[key].strip("~> ")) for key in ("torque", "angle")] for row in table_3_4()
+    )
+    assert sum(other[1] > own[1] for other in others) == 4
+    assert sum(other[0] > own[0] for other in others) == 2
