@@ -72,7 +72,7 @@ def figure_3_3() -> Figure:
         ("t", (-w / 2, 8), (-w / 2 + t, 8), (-w / 2 - 2.5, 8)),
     ):
         axes.annotate("", end, start, arrowprops={"arrowstyle": "<->", "shrinkA": 0, "shrinkB": 0})
-        axes.text(*place, name, ha="center", va="center", style="italic")
+        axes.text(place[0], place[1], name, ha="center", va="center", style="italic")
     axes.text(-w / 2 - 1, 0, "neutral\nsurface", ha="right", va="center", fontsize=9, color=GREY)
     axes.set(xlim=(-25, 23), ylim=(-11, 23), xlabel="mm", ylabel="mm", aspect="equal")
     return drawn
