@@ -9,6 +9,7 @@ from softgrip.actuator.frequency import stiffness_product, stiffness_product_for
 from softgrip.actuator.section import Section, torque
 from softgrip.errors import InvalidInputError, SoftgripError
 from softgrip.materials.arrays import check_positive
+from softgrip.materials.table import material
 from softgrip.units import MM, MPa
 
 Value = Any
@@ -126,6 +127,22 @@ class DesignProblem:
             angle_scale=self.angle_scale,
         )
         check_power(self.fractional_power)
+
+    @classmethod
+    def for_material(cls, name: str, **others: Any) -> "DesignProblem":
+        """Return the problem for a material of Table 5.1, with its E and n; the rest as given.
+
+        UnknownNameError is raised if the table has no such material, and lists those it has.
+
+        Examples
+        --------
+        >>> DesignProblem.for_material("Ecoflex 00-30", pressure=30e3).young_modulus
+        70000.0
+        """
+        rubber = material(name)
+        return cls(
+            young_modulus=rubber.young_modulus, fractional_power=rubber.fractional_power, **others
+        )
 
     def finger(self, section: Section) -> Finger:
         """Return the finger with a section."""

@@ -15,12 +15,13 @@ from softgrip.actuator.section import Section, chamber_area, torque
 from softgrip.control.lqr import FINGER, Weights, linear_settling_time
 from softgrip.control.lqr import step_response as lqr_response
 from softgrip.control.step_metrics import settling_time
+from softgrip.dynamics.identify import Identified
 from softgrip.dynamics.second_order import SecondOrder, step_response
 from softgrip.ledger.verdict import simulated
 from softgrip.materials.table import material
 from softgrip.provenance import data_file
 from softgrip.rig.identified_model import identified_model
-from softgrip.rig.section_rig import rig_with, step_frequency
+from softgrip.rig.section_rig import identified_step, rig_with
 from softgrip.rig.step_log import step_log_figures
 from softgrip.units import DEG, MM, MPa
 
@@ -102,12 +103,13 @@ def banded_optimum(
 @simulated
 def stepped_frequency(row: str) -> float:
     """Return what second-order identification says of simulated steps to 60 deg, rad/s."""
-    return _stepped(int(row))
+    return stepped(int(row)).natural_frequency.value
 
 
 @cache
-def _stepped(row: int) -> float:
-    return step_frequency(rig_with(table_3_2()[row - 1].section)).natural_frequency.value
+def stepped(row: int) -> Identified:
+    """Identify simulated steps to 60 deg of the section of a row of Table 3.2, 1 to 4."""
+    return identified_step(rig_with(table_3_2()[row - 1].section))
 
 
 def modulus(design: str) -> float:

@@ -1,12 +1,12 @@
 """The simulated rig with a finger of another section, and the frequency that its steps tell."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from softgrip.actuator.bending import modified_moment
 from softgrip.actuator.frequency import rubber_mass
 from softgrip.actuator.printed import section as printed_section
 from softgrip.actuator.section import Section, chamber_area, check_section, torque
-from softgrip.dynamics.identify import Estimate, identify
+from softgrip.dynamics.identify import Identified, identify
 from softgrip.errors import InvalidInputError
 from softgrip.rig.calibration import OPERATING_ANGLE, design_1
 from softgrip.rig.parameters import RigParameters
@@ -51,15 +51,7 @@ def rig_with(section: Section) -> RigParameters:
     )
 
 
-@dataclass(frozen=True)
-class StepFrequency:
-    """What second-order identification says of steps: frequency (rad/s) and damping ratio."""
-
-    natural_frequency: Estimate
-    damping_ratio: Estimate
-
-
-def step_frequency(rig: RigParameters, *, angle: float = OPERATING_ANGLE) -> StepFrequency:
+def identified_step(rig: RigParameters, *, angle: float = OPERATING_ANGLE) -> Identified:
     """Identify the mean of seven simulated steps, pressure to angle, as Section 3.4 does.
 
     Parameters
@@ -70,5 +62,4 @@ def step_frequency(rig: RigParameters, *, angle: float = OPERATING_ANGLE) -> Ste
         At which the median run ends, rad.
     """
     test = simulate_step_test(rig, travel_to(rig, angle), runs=RUNS, seed=SEED)
-    found = identify(test.time, test.pressure, test.angle, initial_input=0.0)
-    return StepFrequency(found.natural_frequency, found.damping_ratio)
+    return identify(test.time, test.pressure, test.angle, initial_input=0.0)

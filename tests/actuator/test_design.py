@@ -24,7 +24,7 @@ from softgrip.actuator.design import (
 from softgrip.actuator.frequency import natural_frequency, spring_constant
 from softgrip.actuator.optimize import evaluate, manufacturable, optimal_design
 from softgrip.actuator.section import Section
-from softgrip.errors import InvalidInputError
+from softgrip.errors import InvalidInputError, UnknownNameError
 
 PRINTED = Bounds(top=(0.014, 0.020), bottom=(0.002, 0.004))
 """With the printed optimum's a and b as upper bounds."""
@@ -241,6 +241,11 @@ def test_heights_and_bottoms_that_cannot_be_met_are_named():
 def test_impossible_problems_are_refused(make, name):
     with pytest.raises(InvalidInputError, match=f"^{name}: expected"):
         make()
+
+
+def test_an_unknown_material_lists_those_that_are():
+    with pytest.raises(UnknownNameError, match="Dragon Skin 20"):
+        DesignProblem.for_material("Dragon Skin 21")
 
 
 def test_a_solver_that_gives_up_says_so(monkeypatch):

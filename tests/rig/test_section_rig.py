@@ -6,7 +6,7 @@ from softgrip.actuator.printed import section, table_3_2
 from softgrip.actuator.section import Section
 from softgrip.errors import InvalidInputError
 from softgrip.rig.calibration import OPERATING_ANGLE, design_1, small_signal_poles
-from softgrip.rig.section_rig import rig_with, step_frequency
+from softgrip.rig.section_rig import rig_with, identified_step
 
 
 def test_the_printed_optimum_is_design_1():
@@ -25,7 +25,7 @@ def test_a_lower_section_is_slower():
 
 
 def test_steps_tell_less_than_small_motions():
-    found = step_frequency(design_1())
+    found = identified_step(design_1())
     assert found.natural_frequency.high < 2.86
     assert found.natural_frequency.value == pytest.approx(1.70, abs=0.05)
 
