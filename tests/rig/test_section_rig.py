@@ -6,7 +6,7 @@ from softgrip.actuator.printed import section, table_3_2
 from softgrip.actuator.section import Section
 from softgrip.errors import InvalidInputError
 from softgrip.rig.calibration import OPERATING_ANGLE, design_1, small_signal_poles
-from softgrip.rig.section_rig import rig_with, identified_step
+from softgrip.rig.section_rig import identified_step, rig_with
 
 
 def test_the_printed_optimum_is_design_1():
