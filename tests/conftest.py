@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+collect_ignore = ["bench/elastica_rod.py"]  # runs in an environment of its own
+
 ROOT = Path(__file__).parent.parent
 BESIDE = ROOT.parent / "shared" / "materials"
 
