@@ -224,7 +224,7 @@ def figure_3_10() -> Figure:
 @figure(
     "3.11",
     caption="Side view of Design 1 at six pressures, drawn from Eq. (3.10) as an arc, with the n "
-    "that gives the printed 290 deg at 0.15 MPa. (The dissertation shows photographs.)",
+    "that gives the printed 290 deg at 0.15 MPa. The dissertation shows photographs.",
     alt="Six side views of a finger that hangs from one point. At zero pressure it is straight; "
     "with each step of 0.03 megapascal it curls further, until at 0.15 megapascal it has turned "
     "by 290 degrees.",
