@@ -4,11 +4,11 @@ import os
 from pathlib import Path
 from time import perf_counter
 
-from tests.bench import controller, elastica, grippers, growth, rig, step_responses
+from tests.bench import controller, elastica, growth, rig, step_responses
 from tests.bench.entry import table, write
 
 PATH = Path(__file__).parents[2] / "book" / "_build" / "bench.json"
-SUBJECTS = (step_responses, rig, growth, controller, elastica, grippers)
+SUBJECTS = (step_responses, rig, growth, controller, elastica)
 
 
 def main() -> None:
