@@ -6,7 +6,7 @@ from scipy.linalg import toeplitz
 from scipy.optimize import linprog
 
 from softgrip.control.pid import PERIOD
-from softgrip.control.state_space_plant import StateSpacePlant
+from softgrip.control.state_space_plant import pulse_response
 from softgrip.errors import InvalidInputError
 from softgrip.materials.arrays import check_positive
 
@@ -64,10 +64,8 @@ def largest_step(
         raise InvalidInputError(
             "time, hold, band", expected="a period or more, band < 1", got=(time, hold, band)
         )
-    pulse = StateSpacePlant(system)
     n = samples + stay
-    response = [float(pulse.advance(limit * (k == 0), period)) for k in range(n)]
-    reached = toeplitz(response, np.zeros(n))[samples - 1 :]
+    reached = toeplitz(limit * pulse_response(system, period, n), np.zeros(n))[samples - 1 :]
     ones = np.ones((len(reached), 1))
     found = linprog(
         [*np.zeros(n), -1.0],

@@ -7,7 +7,7 @@ from scipy.linalg import toeplitz
 from scipy.optimize import linprog
 
 from softgrip.control.pid import PERIOD
-from softgrip.control.state_space_plant import StateSpacePlant
+from softgrip.control.state_space_plant import StateSpacePlant, pulse_response
 from softgrip.errors import InvalidInputError
 from softgrip.materials.arrays import Floats, check_positive
 
@@ -103,9 +103,7 @@ def minimum_settling_time(
     check_positive(change=change, limit=limit, band=band, hold=hold, period=period, longest=longest)
     stay = round(hold / period)
     last = round(longest / period)
-    pulse = StateSpacePlant(system)
-    response = [float(pulse.advance(limit * (k == 0), period)) for k in range(last + stay)]
-    share = np.array(response) / change
+    share = limit / change * pulse_response(system, period, last + stay)
 
     def feasible(samples: int) -> bool:
         n = samples + stay

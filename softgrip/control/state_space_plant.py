@@ -87,3 +87,24 @@ class StateSpacePlant:
             whole = expm(joined * duration)
             self._steps[duration] = whole[:n, :n], whole[:n, n]
         return self._steps[duration]
+
+
+def pulse_response(system: control.StateSpace, period: float, samples: int) -> Floats:
+    """Return the output at the end of each period after a command of 1 held for the first, (N,).
+
+    Parameters
+    ----------
+    system
+        As of `StateSpacePlant`.
+    period
+        s, > 0.
+    samples
+        N, >= 1.
+
+    Examples
+    --------
+    >>> pulse_response(control.ss(0, 1, 1, 0), 0.5, 3).tolist()
+    [0.5, 0.5, 0.5]
+    """
+    plant = StateSpacePlant(system)
+    return np.array([float(plant.advance(float(k == 0), period)) for k in range(samples)])

@@ -134,7 +134,8 @@ def figure_3_6() -> Figure:
     alt="Two panels. Above, the curves of six chambers stay within three per cent of one, those of "
     "one chamber come from twenty per cent below, and all close in on one as the elements get "
     "smaller. Below, the torque rises from 0.2 to 0.95 of the equation as the groove gets "
-    "shallower, while the angle falls from fifteen to three times the printed one.",
+    "shallower; the angle rises a little and then falls, from eighteen to three times the printed "
+    "one.",
     provenance=Provenance.SIMULATED,
     data=FEM[1:],
 )

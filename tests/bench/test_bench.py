@@ -7,7 +7,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from tests.bench import controller, elastica, elastica_runs, growth, rig, step_responses
+from tests.bench import controller, design, elastica, elastica_runs, growth, rig, step_responses
 from tests.bench.entry import Entry, interleaved, table, write
 from tests.bench.fingers import ALLOWED, batch, choose_step, plain, responses
 
@@ -17,6 +17,7 @@ SMALL = {
     growth: {"runs": (2, 4, 8), "repetitions": 1},
     controller: {"count": 50, "repetitions": 2},
     # Ours alone: PyElastica would have to be fetched.
+    design: {"starts": 2, "rivals": ("SLSQP",)},
     elastica: {"elements": (), "runs": 3, "repetitions": 1},
 }
 KINDS = {
