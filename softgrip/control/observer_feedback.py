@@ -67,8 +67,24 @@ class ObserverFeedback:
         self._step: Floats = held.A
         self._drive: Floats = held.B
         self._predicted: Floats = np.zeros((3, 1))
-        self.gain, self.input_gain = K, input_gain
+        self.gain, self.input_gain, self.period = K, input_gain, period
         self.limit, self.set_speed = limit / set_speed, set_speed
+
+    def linear(self) -> control.StateSpace:
+        """Return it from the measurement [rad] to the motor speed [rad/s], without its limit.
+
+        For one gain and a reference of 0; one state a prediction, sampled.
+        """
+        K = self.gain.reshape(1, 3)
+        seen = np.eye(3) - self._correct @ [[self.input_gain, 0.0, 0.0]]
+        closed = self._step - self._drive @ K
+        return control.ss(
+            closed @ seen,
+            closed @ self._correct,
+            -self.set_speed * K @ seen,
+            -self.set_speed * K @ self._correct,
+            self.period,
+        )
 
     def update(self, reference: ArrayLike, measurement: ArrayLike) -> Floats:
         """Return the motor speed for one period, rad/s, within the limit, shape () or (runs,).

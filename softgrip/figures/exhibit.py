@@ -68,6 +68,15 @@ CHAPTERS = {
         "tables_5",
         "tables_5_dynamics",
     ),
+    "6": (
+        "chapter_6",
+        "chapter_6_diagram",
+        "chapter_6_rig",
+        "chapter_6_grasp",
+        "chapter_6_study",
+        "tables_6",
+        "tables_6_rig",
+    ),
 }
 """The files that hold a chapter's figures and tables."""
 

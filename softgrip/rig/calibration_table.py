@@ -7,6 +7,7 @@ Lines that name no other finger are those of Design 1.
 """
 
 import csv
+from collections.abc import Sequence
 from dataclasses import astuple, fields, replace
 from pathlib import Path
 
@@ -119,23 +120,40 @@ def entries() -> tuple[Entry, ...]:
     )  # fmt: skip
 
 
-def write(path: Path | None = None) -> Path:
-    """Write the calibration file and return its path."""
-    target = data_folder() / FILE if path is None else path
+def write_entries(
+    file: str, command: str, lines: Sequence[Entry], path: Path | None = None
+) -> Path:
+    """Write a calibration file below ``data/``, or to a path, and return where it is.
+
+    Parameters
+    ----------
+    file, command
+        Its name, and what makes it.
+    lines
+        Its lines.
+    path
+        Another place for it.
+    """
+    target = data_folder() / file if path is None else path
     target.parent.mkdir(parents=True, exist_ok=True)
     with target.open("w", encoding="utf-8", newline="") as out:
-        out.write(f"# provenance: simulated\n# source: {COMMAND}\n")
+        out.write(f"# provenance: simulated\n# source: {command}\n")
         out.write("# What the simulated rig is tuned to; residual = rig - printed, in `unit`.\n")
         table = csv.writer(out, lineterminator="\n")
         table.writerow(entry.name for entry in fields(Entry))
-        for line in entries():
+        for line in lines:
             table.writerow(f"{x:.6g}" if isinstance(x, float) else x for x in astuple(line))
     return target
 
 
-def read() -> tuple[Entry, ...]:
-    """Read the calibration file."""
-    with data_file(FILE).path.open(encoding="utf-8", newline="") as lines:
+def write(path: Path | None = None) -> Path:
+    """Write the calibration file of the rig with one finger and return its path."""
+    return write_entries(FILE, COMMAND, entries(), path)
+
+
+def read(file: str = FILE) -> tuple[Entry, ...]:
+    """Read a calibration file below ``data/``."""
+    with data_file(file).path.open(encoding="utf-8", newline="") as lines:
         rows = list(csv.reader(line for line in lines if not line.startswith("#")))[1:]
     return tuple(Entry(*row[:6], *map(float, row[6:])) for row in rows)  # type: ignore[arg-type]
 

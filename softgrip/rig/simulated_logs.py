@@ -17,6 +17,7 @@ from softgrip.provenance import Provenance, data_folder
 from softgrip.rig.calibration import design_1, design_3
 from softgrip.rig.calibration_table import FILE
 from softgrip.rig.closed_loop_logs import CLOSED_LOOPS, PERIOD, SEED, write_closed_loop
+from softgrip.rig.gripper_logs import GRIPPER_LOGS, write_gripper_log
 from softgrip.rig.log_schema import LogHeader
 from softgrip.rig.logs import LogWriter
 from softgrip.rig.parameters import PumpParameters, RigParameters
@@ -96,7 +97,7 @@ def make(name: str, folder: Path | None = None) -> Path:
     Parameters
     ----------
     name
-        One of `recipes` or of `closed_loop_logs.CLOSED_LOOPS`.
+        One of `recipes`, of `closed_loop_logs.CLOSED_LOOPS` or of `gripper_logs.GRIPPER_LOGS`.
     folder
         Where to write it; None for ``data/simulated/``.
 
@@ -106,13 +107,15 @@ def make(name: str, folder: Path | None = None) -> Path:
         If there is no such recipe.
     """
     known = recipes()
-    if name not in known and name not in CLOSED_LOOPS:
-        raise UnknownNameError("simulated log", name, [*known, *CLOSED_LOOPS])
+    if name not in (names := [*known, *CLOSED_LOOPS, *GRIPPER_LOGS]):
+        raise UnknownNameError("simulated log", name, names)
     path = (data_folder() / FOLDER if folder is None else folder) / f"{name}.csv"
     path.parent.mkdir(parents=True, exist_ok=True)
     path.unlink(missing_ok=True)
     if name in CLOSED_LOOPS:
         write_closed_loop(name, path, f"{COMMAND} {name}")
+    elif name in GRIPPER_LOGS:
+        write_gripper_log(name, path, f"{COMMAND} {name}")
     else:
         _write_open_loop(name, known[name], path)
     return path
@@ -159,7 +162,7 @@ def _write_open_loop(name: str, recipe: Recipe, path: Path) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Make the logs that are named, or all."""
-    names = [*recipes(), *CLOSED_LOOPS]
+    names = [*recipes(), *CLOSED_LOOPS, *GRIPPER_LOGS]
     parser = argparse.ArgumentParser(prog=COMMAND, description="Make simulated logs.")
     parser.add_argument("name", nargs="*", help=", ".join(names))
     for name in parser.parse_args(arguments).name or names:

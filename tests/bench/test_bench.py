@@ -7,7 +7,16 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from tests.bench import controller, design, elastica, elastica_runs, growth, rig, step_responses
+from tests.bench import (
+    controller,
+    design,
+    elastica,
+    elastica_runs,
+    grippers,
+    growth,
+    rig,
+    step_responses,
+)
 from tests.bench.entry import Entry, interleaved, table, write
 from tests.bench.fingers import ALLOWED, batch, choose_step, plain, responses
 
@@ -19,6 +28,7 @@ SMALL = {
     # Ours alone: PyElastica would have to be fetched.
     design: {"starts": 2, "rivals": ("SLSQP",)},
     elastica: {"elements": (), "runs": 3, "repetitions": 1},
+    grippers: {"pairs": 4, "plain_pairs": 1, "growth": (2, 4, 8), "repetitions": 1},
 }
 KINDS = {
     "name": str,

@@ -14,6 +14,7 @@ from softgrip.actuator import bending, frequency
 from softgrip.actuator import section as cross_section
 from softgrip.control import lqr
 from softgrip.dynamics import consistency, linear, ludwick
+from softgrip.gripper import inversion, plant, reach
 from softgrip.ledger import judge, read_claims
 from softgrip.ledger.__main__ import expected
 from softgrip.materials import fitting, least_squares, power_curve, powerlaw
@@ -171,6 +172,31 @@ CHAPTER_3: list[tuple[str, Callable, str, str, str]] = [
 ]
 
 
+CHAPTER_6: list[tuple[str, Callable, str, str, str]] = [
+    (
+        "Eq. (6.25): a direction without the fingers' stiffness",
+        reach.direction,
+        "+ stiffness)",
+        "+ 1)",
+        "6.4-proj-60-spa1",
+    ),
+    (
+        "P-dagger: a sum of the elements' inverses in place of their mean",
+        inversion.mean_inverse,
+        "(count * f.gain)",
+        "f.gain",
+        "6.4-inverse-denominator",
+    ),
+    (
+        "Eq. (6.15): a spring that pushes away",
+        plant.state_space,
+        "-finger.stiffness",
+        "finger.stiffness",
+        "6.4-simulated-noise-error",
+    ),
+]
+
+
 def broken(function: Callable, sound: str, wrong: str):
     """Return the code of a function with one expression rewritten."""
     source = textwrap.dedent(inspect.getsource(function))
@@ -202,4 +228,9 @@ def test_broken_equation_of_chapter_4_turns_a_verdict(case, monkeypatch):
 
 @pytest.mark.parametrize("case", CHAPTER_3, ids=lambda case: case[0])
 def test_broken_equation_of_chapter_3_turns_a_verdict(case, monkeypatch):
+    turns(*case, monkeypatch)
+
+
+@pytest.mark.parametrize("case", CHAPTER_6, ids=lambda case: case[0])
+def test_broken_equation_of_chapter_6_turns_a_verdict(case, monkeypatch):
     turns(*case, monkeypatch)

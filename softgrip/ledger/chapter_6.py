@@ -1,0 +1,258 @@
+"""Recomputation of the numbers printed in Chapter 6."""
+
+from functools import cache
+from typing import Any
+
+import control
+import numpy as np
+
+from softgrip.control.step_metrics import settling_time
+from softgrip.gripper.gripper_loop import GripperRun, noise_gain, run_gripper
+from softgrip.gripper.internal_model import InternalModelController, controller_matrices
+from softgrip.gripper.inversion import mean_inverse, moore_penrose_inverse
+from softgrip.gripper.loop_shaping import fit_roll_off
+from softgrip.gripper.plant import PRINTED
+from softgrip.gripper.reach import direction, project
+from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
+from softgrip.gripper.synchronization import synchronization_error
+from softgrip.ledger.verdict import simulated
+from softgrip.materials.arrays import Floats
+from softgrip.materials.table import material
+from softgrip.rig import gripper_comparison, gripper_results, gripper_speed
+from softgrip.units import DEG, ML, REV, MPa
+
+FILTERS = {"4.8/s": FAST, "2/s": SLOW}
+SIDE = {"left": 0, "right": 1}
+PARAMETER = {"damping": 0, "stiffness": 1}
+
+
+def projection(spa: str, share: float = 0.333, digits: int | None = None) -> float:
+    """Return an element of proj(Y_d) for equal angles of share pi, in pi rad, Eq. (6.25).
+
+    With ``digits`` the direction q is cut to as many, and the result rounded.
+    """
+    q = direction(PRINTED).real
+    q = q if digits is None else np.floor(10**digits * q) / 10**digits
+    found = float(share * q.sum() * q[int(spa) - 1])
+    return found if digits is None else round(found, digits)
+
+
+def residual(spa: str, share: float = 0.333, digits: int | None = None) -> float:
+    """Return an element of res(Y_d) for equal angles of share pi, in pi rad."""
+    return share - projection(spa, share, digits)
+
+
+def reference_degrees(finger: str, swapped: bool = False, digits: int | None = None) -> float:
+    """Return the reference of the "left" (SPA 1) or "right" finger for 45 deg, in deg."""
+    spa = "1" if (finger == "left") != swapped else "2"
+    return 180 * projection(spa, 0.25, digits)
+
+
+def inverse_denominator() -> float:
+    """Return the common denominator of the mean of the elements' inverses."""
+    return float(1 / mean_inverse(PRINTED).polynomials[0, 0])
+
+
+def inverse_gap(frequency: float) -> float:
+    """Return the largest difference of the printed inverse and Theorem 2's, in percent."""
+    s = 1j * frequency
+    ratio = mean_inverse(PRINTED)(s) / moore_penrose_inverse(PRINTED)(s)
+    return float(100 * np.abs(ratio - 1).max())
+
+
+def loop_gain(target: str) -> float:
+    """Return k of the loop k/s that a printed H has at low frequencies, rad/s."""
+    s = 1e-5j
+    low_pass = filter_state_space(*FILTERS[target])(s).item()
+    return float(abs(s * low_pass / (1 - low_pass)))
+
+
+def filter_coefficient(target: str, part: str, power: int, poles: int = 2) -> float:
+    """Return a coefficient of the re-derived H, its denominator starting with 1.
+
+    Parameters
+    ----------
+    target
+        "4.8/s" or "2/s".
+    part
+        "num" or "den".
+    power
+        Of s.
+    poles
+        That the target loop is given beyond its crossover; their place is fitted.
+    """
+    found = shaped(target, poles)
+    low = np.poly(found.poles()).real
+    # One input, one output: the numerator is det(sI - A + B C) - (1 - D) det(sI - A).
+    top = np.poly(found.A - found.B @ found.C).real + (found.D.item() - 1) * low
+    return float((top if part == "num" else low)[len(low) - 1 - power])
+
+
+@cache
+def shaped(target: str, poles: int = 2) -> control.StateSpace:
+    """Return the re-derived H for a target loop, compared from 0.1 to 100 rad/s."""
+    low_pass = filter_state_space(*FILTERS[target])
+    at = np.geomspace(0.1, 100, 200)
+    return fit_roll_off(float(target[:-2]), low_pass, at, order=poles)[1].complementary
+
+
+def gain_at_rest(target: str) -> float:
+    """Return the printed H at s = 0."""
+    return float(filter_state_space(*FILTERS[target])(0).real.item())
+
+
+def natural_frequency(spa: str) -> float:
+    """Return the natural frequency of an element of Eq. (6.26), rad/s."""
+    return PRINTED.fingers[int(spa) - 1].natural_frequency
+
+
+def young_modulus() -> float:
+    """Return that of Dragon Skin 20 in Table 5.1, MPa."""
+    return material("Dragon Skin 20").young_modulus / MPa
+
+
+def linear_range_degrees() -> float:
+    """Return 4 pi / 9 rad, the range of the linear model, in deg."""
+    return float(4 * np.pi / 9 / DEG)
+
+
+def step(target: str = "4.8/s", share: float = 0.333, period: float = 0.005) -> GripperRun:
+    """Run the printed controller on the printed plant for 4 s; 5 ms stand for no sampling."""
+    return run(period=period, printed=FILTERS[target], angle=share * np.pi)
+
+
+def settling(
+    target: str = "4.8/s", share: float = 0.333, band: float = 0.05, spa: str = ""
+) -> float:
+    """Return the settling time of both fingers, or of one, in s; ``band`` is a share."""
+    found = step(target, share)
+    times = settling_time(found.time, found.angles, final=targets(share), band=band)
+    return float(times[int(spa) - 1] if spa else times.max())
+
+
+def tracking_error(after: float) -> float:
+    """Return the largest error from proj(Y_d) after a time [s], in deg."""
+    found = step()
+    error = np.abs(found.angles - targets(0.333)[:, None]) / DEG
+    return float(error[:, found.time >= after].max())
+
+
+def push_error(push: float) -> float:
+    """Return the largest error when a push [rad] acts on the left finger for 1 s, in rad."""
+    found = run(period=0.1, angle=0.333 * np.pi, push=lambda t: (push * (1.4 <= t < 2.4), 0.0))
+    error = np.abs(found.angles - targets(0.333)[:, None])
+    return float(error[:, found.time >= 1.4].max())
+
+
+def noise_error(period: float = 0.1, noise: float = 2.0) -> float:
+    """Return the larger RMS error of the two fingers from the sensors' noise, in deg."""
+    low_pass = filter_state_space(*FAST)
+    matrices = controller_matrices(PRINTED, mean_inverse(PRINTED), low_pass, period=period)
+    return float(noise * noise_gain(PRINTED, matrices).max())
+
+
+def peak_speed(target: str = "4.8/s", per_unit: float = 1 / REV, period: float = 0.1) -> float:
+    """Return the largest motor speed of a step, in rev/s; a unit of U is so many rev/s."""
+    return float(per_unit * np.abs(step(target, period=period).commands).max())
+
+
+def highest_frequency(period: float = 0.1) -> float:
+    """Return the highest frequency that samples at a period [s] can show, in rad/s."""
+    return np.pi / period
+
+
+def transient_difference(target: str = "4.8/s") -> float:
+    """Return by how much the fingers are apart at most on the way to 45 deg, in deg."""
+    apart = synchronization_error(step(target, 0.25).angles, targets(0.25))
+    return float(apart.max() / DEG)
+
+
+def outside(right: float) -> float:
+    """Return which share of a target (pi/4, right pi/4) is outside the image of P."""
+    return project(PRINTED, [np.pi / 4, right * np.pi / 4]).share
+
+
+def targets(share: float) -> Floats:
+    """Return proj(Y_d) for equal angles of share pi, rad."""
+    return project(PRINTED, [share * np.pi] * 2).reached
+
+
+def run(
+    *, period: float, printed: tuple[Any, Any] = FAST, angle: float, **conditions: Any
+) -> GripperRun:
+    """Run the printed controller on the printed plant for 4 s."""
+    goal, low_pass = project(PRINTED, [angle] * 2).reached, filter_state_space(*printed)
+    loop = InternalModelController(PRINTED, goal, mean_inverse(PRINTED), low_pass, period=period)
+    return run_gripper(PRINTED, loop, duration=4.0, points=round(period / 0.005), **conditions)
+
+
+@simulated
+def deviation_of_runs(parameter: str) -> float:
+    """Return the larger of the two fingers' largest deviations over seven logs, in percent."""
+    found = gripper_results.bounds(gripper_results.identified("open"))
+    return float(100 * found[:, PARAMETER[parameter]].max())
+
+
+@simulated
+def excited(kind: str, end: str) -> float:
+    """Return an end of the band in which the command of some logs is excited, rad/s."""
+    return gripper_results.band(kind)[("low", "high").index(end)]
+
+
+@simulated
+def spread_at_rest(speed: float) -> float:
+    """Return the measured standard deviation at rest of the left finger, in deg.
+
+    ``speed`` is one of `gripper_speed.SPEEDS`, rev/s.
+    """
+    found = {spread.speed: spread for spread in gripper_speed.read()}
+    return float(found[speed].measured.std(ddof=1))
+
+
+@simulated
+def angle_at_rest(side: str, kind: str = "open") -> float:
+    """Return the mean of the last second of seven logs of a kind, in deg."""
+    return float(gripper_results.ends(kind)[SIDE[side]] / DEG)
+
+
+@simulated
+def reachable_angle(side: str) -> float:
+    """Return what the simulated gripper's own model can reach of 45 deg, in deg."""
+    return float(gripper_results.desired()[SIDE[side]] / DEG)
+
+
+@simulated
+def settled_on_rig(controller: str, criterion: str = "10 %") -> float:
+    """Return the settling time of both fingers on the simulated gripper, median of 50 runs, s."""
+    return float(np.median(gripper_comparison.judged(controller).settling[criterion]))
+
+
+@simulated
+def tracking_error_on_rig(controller: str) -> float:
+    """Return how far a finger's true end lies from its target, median of 50 runs, in deg."""
+    return float(np.median(gripper_comparison.judged(controller).error)) / DEG
+
+
+@simulated
+def transient_difference_on_rig(controller: str) -> float:
+    """Return the largest difference of the shares of their ways, median of 50 runs, in deg."""
+    return float(np.median(gripper_comparison.judged(controller).synchronization)) / DEG
+
+
+@simulated
+def push_recovery(within: float = 1.0) -> float:
+    """Return the time after a push on the left finger until both are back within deg, in s."""
+    return gripper_results.recovery(within * DEG)
+
+
+@simulated
+def identified(finger: str, parameter: str) -> float:
+    """Return what the simulated gripper's steps identify, the mean of the runs, SI by mass."""
+    runs = gripper_results.identified("open")[SIDE[finger]]
+    return float(np.mean([getattr(one, parameter) for one in runs]))
+
+
+@simulated
+def volume_of_fingers(count: int, angle: float) -> float:
+    """Return the volume that bends so many fingers by an angle [rad], in mL."""
+    return gripper_results.volume_for(count, angle) / ML

@@ -1,0 +1,122 @@
+"""The controllers of Chapter 6 for the simulated gripper, designed on its own logs."""
+
+from dataclasses import replace
+from functools import cache
+from typing import Literal
+
+import control
+import numpy as np
+
+from softgrip.control.loop import SPEED_LIMIT
+from softgrip.control.lqr import Weights, lqr_gain
+from softgrip.control.observer_feedback import ObserverFeedback
+from softgrip.dynamics.second_order import SecondOrder
+from softgrip.gripper.internal_model import InternalModelController
+from softgrip.gripper.inversion import mean_inverse
+from softgrip.gripper.optimal_feedforward import OptimalFeedforward, trade_off
+from softgrip.gripper.plant import Gripper
+from softgrip.gripper.reach import project
+from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
+from softgrip.materials.arrays import Floats
+from softgrip.provenance import data_file
+from softgrip.rig.gripper_calibration import push_commands
+from softgrip.rig.gripper_loop import CommandSequence, GripperController, OnTheMean
+from softgrip.rig.gripper_parameters import LEFT, RIGHT, TRAVEL, printed_gripper
+from softgrip.rig.gripper_rig import PERIOD
+from softgrip.rig.gripper_tests import identified_gripper, read_runs
+from softgrip.units import DEG
+
+WANTED = 45 * DEG
+"""rad: what Section 6.4 asks of both fingers."""
+OPEN_LOGS = tuple(f"simulated/gripper-open-{run}.csv" for run in range(1, 8))
+
+Name = Literal["open loop", "H 4.8/s", "H 2/s", "LQR", "LQR faster", "optimal feedforward"]
+FILTERS = {"H 4.8/s": FAST, "H 2/s": SLOW}
+WEIGHTS = {"LQR": Weights(), "LQR faster": Weights(p=1000.0, q=(1.0, 0.03, 0.0))}
+"""Of the regulators: those of Eq. (3.29), and those of Chapter 3's faster one."""
+
+
+@cache
+def own_model() -> Gripper:
+    """Return P(s) as the gripper's logs in open loop identify it, input in rad/s."""
+    return identified_gripper(read_runs([data_file(name).path for name in OPEN_LOGS]))
+
+
+def printed_model() -> Gripper:
+    """Return Eq. (6.26), left finger first, with the mean of the identified gains.
+
+    The unit of its command is not printed, so that its own gain cannot be used.
+    """
+    gain = own_model().mean.gain
+    return Gripper(tuple(replace(finger, gain=gain) for finger in (LEFT, RIGHT)))
+
+
+def target_angles(model: Gripper) -> Floats:
+    """Return what of `WANTED` for each finger one pump can hold, Eq. (6.24), rad."""
+    return project(model, [WANTED] * len(model.fingers)).reached
+
+
+@cache
+def best_command(model: Gripper) -> OptimalFeedforward:
+    """Return the commands within the motor's limit that settle the model as early as any can.
+
+    Of these, the ones that keep the fingers together best.
+    """
+    return next(iter(trade_off(model, tuple(target_angles(model).tolist()), limit=SPEED_LIMIT)))
+
+
+def gripper_controller(
+    name: Name, *, model: Gripper | None = None, limit: float = np.inf
+) -> GripperController:
+    """Return a controller that goes for the `target_angles` of its model.
+
+    Parameters
+    ----------
+    name
+        Which.
+    model
+        Known to the controller; `own_model` if None.
+    limit
+        Of the motor, rad/s, as far as the scheme of Figure 6.3 knows of it.
+    """
+    if name == "open loop":
+        return CommandSequence(push_commands(TRAVEL, printed_gripper().pump))
+    known = own_model() if model is None else model
+    if name == "optimal feedforward":
+        return CommandSequence(best_command(known).command)
+    if name in FILTERS:
+        return InternalModelController(
+            known,
+            target_angles(known),
+            mean_inverse(known),
+            filter_state_space(*FILTERS[name]),
+            period=PERIOD,
+            limit=limit,
+        )
+    mean = known.mean
+    w = mean.natural_frequency
+    finger = SecondOrder(w, mean.damping / (2 * w))
+    regulator = ObserverFeedback(
+        lqr_gain(finger, WEIGHTS[name]), finger, mean.gain * SPEED_LIMIT, period=PERIOD
+    )
+    return OnTheMean(regulator, target_angles(known))
+
+
+def feedback_of(controller: GripperController) -> control.StateSpace | None:
+    """Return a controller from the angles [rad] to the motor speed [rad/s], without its limit.
+
+    Returns
+    -------
+    StateSpace or None
+        One input a finger, sampled at `PERIOD`; None if it looks at no angle.
+    """
+    match controller:
+        case InternalModelController():
+            whole, fingers = controller.matrices.linear(), controller.target.size
+            return control.ss(whole.A, whole.B[:, :fingers], whole.C, whole.D[:, :fingers], PERIOD)
+        case OnTheMean(controller=ObserverFeedback() as regulator):
+            each = np.full((1, controller.fingers), 1 / controller.fingers)
+            of_mean = regulator.linear()
+            return control.ss(of_mean.A, of_mean.B @ each, of_mean.C, of_mean.D @ each, PERIOD)
+        case _:
+            return None

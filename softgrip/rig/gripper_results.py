@@ -1,0 +1,112 @@
+"""The numbers of Section 6.4 as the simulated gripper gives them."""
+
+from functools import cache
+
+import numpy as np
+
+from softgrip.control.step_metrics import final_value
+from softgrip.gripper.plant import FingerDynamics
+from softgrip.gripper.uncertainty import excited_band, parameter_bounds
+from softgrip.materials.arrays import Floats
+from softgrip.provenance import data_file
+from softgrip.pump.finger import Finger, swept_volume
+from softgrip.rig.closed_loop_logs import SEED
+from softgrip.rig.gripper_calibration import step_identifies
+from softgrip.rig.gripper_control import gripper_controller, own_model, target_angles
+from softgrip.rig.gripper_logs import PUSH_FROM, PUSH_UNTIL, RUNS, names_of, push_left
+from softgrip.rig.gripper_loop import drive_gripper
+from softgrip.rig.gripper_parameters import TRAVEL, printed_gripper
+from softgrip.rig.gripper_rig import PERIOD, GripperRig
+from softgrip.rig.gripper_tests import GripperLogs, each_identified, read_runs
+from softgrip.units import DEG
+
+BAND_SHARE = 0.1
+"""Of the largest amplitude: what counts as excited."""
+
+
+def logs_of(kind: str) -> GripperLogs:
+    """Read the kept logs of a kind, such as "open"."""
+    return read_runs([data_file(name).path for name in names_of(kind)])
+
+
+def ends(kind: str) -> Floats:
+    """Return the mean angle of each finger over the last second, rad, shape (fingers,)."""
+    logs = logs_of(kind)
+    return np.asarray(final_value(logs.time, logs.angles.mean(axis=0), window=1.0))
+
+
+@cache
+def identified(kind: str) -> list[list[FingerDynamics]]:
+    """Return what each of the kept logs identifies, ``found[finger][run]``."""
+    return each_identified(logs_of(kind))
+
+
+@cache
+def identified_without_noise() -> list[list[FingerDynamics]]:
+    """Return what the runs of the open-loop logs identify without their sensors."""
+    return step_identifies(printed_gripper(), TRAVEL, runs=RUNS, seed=SEED)[1]
+
+
+def bounds(found: list[list[FingerDynamics]]) -> Floats:
+    """Return the largest deviations of damping and stiffness, shares, shape (fingers, 2)."""
+    return np.array([parameter_bounds(runs) for runs in found])
+
+
+def band(kind: str) -> tuple[float, float]:
+    """Return the excited band of the command of some logs, rad/s."""
+    return excited_band(logs_of(kind).commands[0, 1:], PERIOD, share=BAND_SHARE)
+
+
+@cache
+def push_response(*, runs: int = 50) -> tuple[Floats, Floats]:
+    """Return by how much a push on the left finger moves both, against the same runs without it.
+
+    Returns
+    -------
+    tuple
+        Time since the push begins, s, shape (N,), and the median over the runs, rad, shape
+        (fingers, N).
+    """
+    pushed, free = (
+        drive_gripper(
+            GripperRig(printed_gripper(), runs=runs, seed=SEED),
+            gripper_controller("H 2/s"),
+            duration=12.0,
+            push=push,
+        )
+        for push in (push_left, None)
+    )
+    off = np.median(pushed.truth.angle - free.truth.angle, axis=-1)
+    after = pushed.time > PUSH_FROM - PERIOD / 2
+    return pushed.time[after] - PUSH_FROM, off[after].T
+
+
+def recovery(within: float = 1 * DEG) -> float:
+    """Return the time from the end of the push until both fingers stay within an angle, s."""
+    time, off = push_response()
+    beyond = np.flatnonzero(np.abs(off).max(axis=0) > within)
+    return float(time[beyond[-1]] - (PUSH_UNTIL - PUSH_FROM)) if beyond.size else 0.0
+
+
+def volume_for(count: int, angle: float) -> float:
+    """Return what the plunger must sweep to bend so many fingers by an angle [rad], m^3.
+
+    The fingers are those of the simulated gripper, in turn; all are given the pressure that the
+    stiffest of them needs. By the exact gas law, `pump.finger.swept_volume`.
+    """
+    gripper = printed_gripper(spread=False)
+    fingers = [gripper.fingers[k % 2] for k in range(count)]
+    pressure = max(f.stiffness * angle**f.fractional_power / f.torque_per_pressure for f in fingers)
+    at_rest = sum(f.rest_volume for f in fingers)
+    grown = sum(
+        f.torque_per_pressure * (f.torque_per_pressure * pressure / f.stiffness)
+        ** (1 / f.fractional_power) + f.ballooning * pressure
+        for f in fingers
+    )  # fmt: skip
+    asked = Finger(pressure, at_rest, at_rest + grown, gripper.gas.dead_volume, rise_time=1.0)
+    return swept_volume(asked, gripper.pump.syringe_volume, gripper.gas.atmosphere)
+
+
+def desired() -> Floats:
+    """Return what of 45 deg for both fingers the gripper's own model can reach, rad."""
+    return target_angles(own_model())

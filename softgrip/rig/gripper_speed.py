@@ -1,0 +1,84 @@
+"""Does speed narrow the spread of a finger, as Remark 3 and Figure 6.5 say? Steps at many speeds.
+
+``python -m softgrip.rig.gripper_speed`` writes ``data/gripper/speed_spread.csv``: for pushes of one
+travel at several motor speeds, where the left finger of the simulated gripper comes to rest in each
+run, less the mean over the runs. The mean of its last second, as it is and as its sensor has it.
+"""
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from softgrip.materials.arrays import Floats
+from softgrip.provenance import data_file, data_folder
+from softgrip.rig.closed_loop_logs import SEED
+from softgrip.rig.gripper_logs import REST, low_speed_commands
+from softgrip.rig.gripper_loop import CommandSequence, drive_gripper
+from softgrip.rig.gripper_parameters import printed_gripper
+from softgrip.rig.gripper_rig import PERIOD, GripperRig
+from softgrip.units import DEG, REV
+
+FILE = "gripper/speed_spread.csv"
+COMMAND = "python -m softgrip.rig.gripper_speed"
+SPEEDS = (5.0, 1.0, 0.5, 0.2, 0.1, 0.05)
+"""rev/s."""
+RUNS = 200
+END = 1.0
+"""Over which the angle is averaged, s."""
+
+
+@dataclass(frozen=True)
+class SpeedSpread:
+    """Errors of the angle at rest at one speed, deg, shape (runs,).
+
+    Attributes
+    ----------
+    speed
+        rev/s.
+    true
+        Without the sensor.
+    measured
+        With it.
+    """
+
+    speed: float
+    true: Floats
+    measured: Floats
+
+
+def errors_at(speed: float, *, runs: int = RUNS, seed: int = SEED) -> SpeedSpread:
+    """Simulate steps of the left finger at a speed, rev/s."""
+    commands = low_speed_commands(speed * REV)
+    rig = GripperRig(printed_gripper(), runs=runs, seed=seed)
+    made = drive_gripper(rig, CommandSequence(commands), duration=PERIOD * commands.size + REST)
+    last = round(END / PERIOD)
+    true, measured = (
+        angle[-last:, 0].mean(axis=0) / DEG for angle in (made.truth.angle, made.measured.angle)
+    )
+    return SpeedSpread(speed, true - true.mean(), measured - measured.mean())
+
+
+def write(path: Path | None = None) -> Path:
+    """Write the errors and return the path of the file."""
+    target = data_folder() / FILE if path is None else path
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with target.open("w", encoding="utf-8", newline="") as out:
+        out.write(f"# provenance: simulated\n# source: {COMMAND}\n# rev/s, then deg\n")
+        table = csv.writer(out, lineterminator="\n")
+        table.writerow(("speed", "run", "true", "measured"))
+        for found in map(errors_at, SPEEDS):
+            for run, pair in enumerate(zip(found.true, found.measured, strict=True)):
+                table.writerow((found.speed, run, *(f"{x:.3f}" for x in pair)))
+    return target
+
+
+def read() -> tuple[SpeedSpread, ...]:
+    """Read the kept errors, the highest speed first."""
+    table = np.loadtxt(data_file(FILE).path, delimiter=",", skiprows=4)
+    return tuple(SpeedSpread(speed, *table[table[:, 0] == speed][:, 2:].T) for speed in SPEEDS)
+
+
+if __name__ == "__main__":
+    print(write())

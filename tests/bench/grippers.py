@@ -1,0 +1,174 @@
+"""Many grippers in the sampled loop, against python-control called for each pair and period."""
+
+import tracemalloc
+from collections.abc import Sequence
+
+import control
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from softgrip.gripper.gripper_batch import GripperBatch, draw_grippers
+from softgrip.gripper.internal_model import (
+    ControllerMatrices,
+    InternalModelController,
+    controller_matrices,
+)
+from softgrip.gripper.inversion import mean_inverse
+from softgrip.gripper.monte_carlo import Keep, Outcome, in_parts, joined, simulate
+from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, state_space
+from softgrip.gripper.reach import project
+from softgrip.gripper.shaping_filter import SLOW, filter_state_space
+from softgrip.gripper.trial import Trial
+from tests.bench.entry import Entry, interleaved, spread
+from tests.bench.growth import exponent
+
+TRIAL = Trial(tuple(project(PRINTED, [np.pi / 4] * 2).reached.tolist()), limit=3.0)
+"""Within 3 the printed loop for 2/s is cut off, as a motor would."""
+MEMORY = 64e6
+WANTED, WANTED_KEPT, ALLOWED = 1000, 300, 1e-10
+
+
+def loop() -> ControllerMatrices:
+    """Return the printed controller for 2/s."""
+    return controller_matrices(PRINTED, mean_inverse(PRINTED), filter_state_space(*SLOW))
+
+
+def ours(pairs: int, keep: Keep = "metrics") -> Outcome | None:
+    """Draw pairs, discretise and simulate them; trajectories are made, and dropped by the part."""
+    parts = in_parts(draw_grippers(PRINTED, pairs, seed=1), loop(), TRIAL, keep, MEMORY)
+    if keep == "metrics":
+        return joined([found for _, found in parts])
+    for _ in parts:
+        pass
+    return None
+
+
+def baseline(pairs: int) -> np.ndarray:
+    """Return the angles of the first pairs, a call of `forced_response` a pair and period."""
+    batch = draw_grippers(PRINTED, pairs, seed=1)
+    controller = InternalModelController(
+        PRINTED, TRIAL.target, mean_inverse(PRINTED), filter_state_space(*SLOW), limit=TRIAL.limit
+    )
+    return np.stack([_pair(batch, number, controller) for number in range(pairs)])
+
+
+def _pair(batch: GripperBatch, number: int, controller: InternalModelController) -> np.ndarray:
+    numbers = (batch.damping[number], batch.stiffness[number], batch.gain[number])
+    fingers = (FingerDynamics(*map(float, each)) for each in zip(*numbers, strict=True))
+    plant = state_space(Gripper(tuple(fingers)))
+    controller.reset()
+    time = np.linspace(0, TRIAL.period, TRIAL.points_a_period + 1)
+    state, angles = np.zeros(plant.nstates), [np.zeros((batch.fingers, 1))]
+    for _ in range(TRIAL.periods):
+        command = float(controller.update(angles[-1][:, -1]))
+        found = control.forced_response(
+            plant, time, np.full(time.size, command), state, squeeze=False
+        )
+        state = found.states[:, -1]
+        angles.append(found.outputs[:, 1:])
+    return np.concatenate(angles, axis=1)
+
+
+def entries(
+    *, pairs: int = 10_000, plain_pairs: int = 20, growth: Sequence[int] = (), repetitions: int = 5
+) -> list[Entry]:
+    """Return time, equality, growth and memory."""
+    # One thread on both sides: the baseline's matrices are so small that more of them slow it down.
+    with threadpool_limits(1):
+        seconds = interleaved(
+            lambda: ours(pairs),
+            lambda: ours(pairs, "trajectories"),
+            lambda: baseline(plain_pairs),
+            repetitions=repetitions,
+        )
+    seconds[:, 2] *= pairs / plain_pairs
+    metrics, kept, plain = (float(s) for s in np.median(seconds, axis=0))
+    how = (
+        f"{TRIAL.duration:g} s of the printed loop for 2/s at 100 ms, limit {TRIAL.limit:g},"
+        f" {TRIAL.points:,} points of two fingers; drawing and discretisation included. Baseline:"
+        f" python-control's forced_response for each pair and period, {plain_pairs} pairs timed"
+        f" and scaled to {pairs:,}. Both on one thread. Medians of {repetitions} turns"
+    )
+    found = [
+        Entry(
+            f"{pairs:,} gripper pairs, {name}",
+            value,
+            "s",
+            plain,
+            plain / value,
+            f"ratio >= {wanted:,}",
+            plain / value >= wanted,
+            f"{how} ({spread(seconds[:, column])}).",
+        )
+        for column, name, value, wanted in (
+            (0, "metrics", metrics, WANTED),
+            (1, "trajectories", kept, WANTED_KEPT),
+        )
+    ]
+    return [
+        *found,
+        _equality(plain_pairs),
+        _growth(growth or (pairs // 8, pairs // 2, pairs)),
+        _memory(pairs),
+    ]
+
+
+def _equality(pairs: int) -> Entry:
+    batch = draw_grippers(PRINTED, pairs, seed=1)
+    found = simulate(batch, loop(), TRIAL, keep="trajectories")
+    true = baseline(pairs)
+    apart = np.ptp(true / np.array(TRIAL.target)[:, None], axis=1).max(axis=1)
+    error = max(
+        float(np.abs(found.angles - true).max()), float(np.abs(found.synchronisation - apart).max())
+    )
+    return Entry(
+        "gripper pairs, largest difference from the baseline",
+        error,
+        "rad",
+        None,
+        None,
+        f"< {ALLOWED:g}",
+        error < ALLOWED,
+        f"All points of {pairs} pairs, the same that were timed, and the largest difference between"
+        " two fingers (a share).",
+    )
+
+
+def _growth(pairs: Sequence[int]) -> Entry:
+    with threadpool_limits(1):
+        works = [lambda count=count: ours(count) for count in pairs]
+        seconds = np.median(interleaved(*works, repetitions=3), axis=0)
+    power = exponent(pairs, seconds)
+    listed = ", ".join(f"{n:,}: {1e3 * s:.0f} ms" for n, s in zip(pairs, seconds, strict=True))
+    return Entry(
+        f"growth of time, {pairs[0]:,} to {pairs[-1]:,} gripper pairs",
+        power,
+        "exponent",
+        1.0,
+        1 / power,
+        "0.8 to 1.1",
+        0.8 <= power <= 1.1,
+        f"Log-log fit of medians of 3 ({listed}).",
+    )
+
+
+def _memory(pairs: int) -> Entry:
+    tracemalloc.start()
+    try:
+        ours(pairs, "trajectories")
+        peak = tracemalloc.get_traced_memory()[1] / 1e6
+    finally:
+        tracemalloc.stop()
+    whole = 8e-6 * pairs * 2 * (TRIAL.points + 1)
+    most = 2.5 * MEMORY / 1e6
+    return Entry(
+        f"peak memory, trajectories of {pairs:,} gripper pairs",
+        peak,
+        "MB",
+        whole,
+        whole / peak,
+        f"<= {most:g} MB",
+        peak <= most,
+        f"By tracemalloc. Baseline: the trajectories alone, if kept. A part takes"
+        f" {MEMORY / 1e6:g} MB at most, and the part before is still held.",
+    )

@@ -1,0 +1,145 @@
+"""Figure 6.3 against its blocks run one by one."""
+
+import control
+import numpy as np
+import pytest
+from scipy.signal import cont2discrete
+
+from softgrip.errors import InvalidInputError
+from softgrip.gripper.gripper_loop import run_gripper
+from softgrip.gripper.internal_model import InternalModelController, controller_matrices
+from softgrip.gripper.inversion import filtered_inverse, mean_inverse, moore_penrose_inverse
+from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, state_space
+from softgrip.gripper.reach import project
+from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space, low_pass
+
+TARGET = np.array([0.95, 1.12])
+REAL = Gripper((FingerDynamics(2.9, 3.4, 7.5), FingerDynamics(2.3, 3.2, 8.0)))
+H, OTHER = filter_state_space(*FAST), filter_state_space(*SLOW)
+
+
+class Block:
+    """A sampled state space, one step after the other."""
+
+    def __init__(self, system, method):
+        self.A, self.B, self.C, self.D, _ = cont2discrete(
+            (system.A, system.B, system.C, system.D), 0.1, method
+        )
+        self.x = np.zeros(len(self.A))
+
+    def output(self, u):
+        return self.C @ self.x + self.D @ np.atleast_1d(u)
+
+    def step(self, u):
+        self.x = self.A @ self.x + self.B @ np.atleast_1d(u)
+
+
+def blocks(inverse, ahead, back, *, limit=np.inf, delay=0, samples=30):
+    """The diagram: u_c = u_ff - u_fb, y_delta = y - P u_c, on other fingers than the model's."""
+    plant, model = Block(state_space(REAL), "zoh"), Block(state_space(PRINTED), "zoh")
+    u_ff = Block(filtered_inverse(inverse, ahead), "bilinear")
+    u_fb = Block(filtered_inverse(inverse, back), "bilinear")
+    late, sent = [0.0] * delay, []
+    for _ in range(samples):
+        y_delta = plant.output(0) - model.output(0)
+        u = float(np.clip(u_ff.output(TARGET) - u_fb.output(y_delta), -limit, limit).item())
+        late.append(u)
+        u_ff.step(TARGET)
+        u_fb.step(y_delta)
+        plant.step(u)
+        model.step(late.pop(0))
+        sent.append(u)
+    return np.array(sent)
+
+
+def run(controller, samples=30):
+    plant, sent = Block(state_space(REAL), "zoh"), []
+    for _ in range(samples):
+        u = controller.update(plant.output(0))
+        plant.step(u)
+        sent.append(float(u))
+    return np.array(sent)
+
+
+@pytest.mark.parametrize("make", [mean_inverse, moore_penrose_inverse])
+@pytest.mark.parametrize(
+    ("back", "conditions"),
+    [(None, {}), (OTHER, {}), (None, {"limit": 20.0}), (OTHER, {"delay": 2})],
+)
+def test_controller_is_the_block_diagram(make, back, conditions):
+    named = {"delay_samples" if k == "delay" else k: v for k, v in conditions.items()}
+    found = run(
+        InternalModelController(PRINTED, TARGET, make(PRINTED), H, feedback_filter=back, **named)
+    )
+    expected = blocks(make(PRINTED), H, back or H, **conditions)
+    assert found == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
+
+
+def test_linear_matrices_give_the_same_commands():
+    matrices = controller_matrices(PRINTED, mean_inverse(PRINTED), H)
+    whole, plant = matrices.linear(), Block(state_space(REAL), "zoh")
+    x, found = np.zeros(whole.nstates), []
+    for _ in range(20):
+        inputs = np.concatenate([plant.output(0), TARGET])
+        u = whole.C @ x + whole.D @ inputs
+        x = whole.A @ x + whole.B @ inputs
+        plant.step(u)
+        found.append(u.item())
+    controller = InternalModelController(PRINTED, TARGET, mean_inverse(PRINTED), H)
+    assert found == pytest.approx(run(controller, 20))
+
+
+def test_a_batch_is_its_runs():
+    angles = np.random.default_rng(0).normal(size=(8, 2, 3))
+    together = InternalModelController(PRINTED, TARGET, mean_inverse(PRINTED), H, limit=30)
+    found = np.array([together.update(y) for y in angles])
+    assert found.shape == (8, 3)
+    for k in range(3):
+        together.reset()
+        assert [together.update(y[:, k]) for y in angles] == pytest.approx(found[:, k])
+
+
+def test_without_mismatch_it_is_the_feedforward_alone():
+    """At 1 ms the sampled loop is near the continuous P H P-dagger."""
+    target = project(PRINTED, [1.0, 1.0]).reached
+    low = low_pass(5.0)
+    controller = InternalModelController(PRINTED, target, mean_inverse(PRINTED), low, period=1e-3)
+    found = run_gripper(PRINTED, controller, duration=2.0, points=1)
+    ahead = filtered_inverse(mean_inverse(PRINTED), low)
+    whole = control.series(ahead, state_space(PRINTED))
+    inputs = np.repeat(target[:, None], found.time.size, axis=1)
+    expected = control.forced_response(whole, found.time, inputs, squeeze=False).outputs
+    # A held command is half a period late.
+    assert found.angles == pytest.approx(np.asarray(expected), abs=5e-3)
+
+
+def test_a_held_input_rule_misses_the_target_and_the_bilinear_one_does_not():
+    target = project(PRINTED, [1.0, 1.0]).reached
+    ends = {}
+    for method in ("bilinear", "zoh"):
+        controller = InternalModelController(
+            PRINTED, target, mean_inverse(PRINTED), H, method=method
+        )
+        ends[method] = run_gripper(PRINTED, controller, duration=10.0).angles[0, -1] / target[0]
+    assert ends["bilinear"] == pytest.approx(1, abs=1e-3)
+    assert ends["zoh"] > 10
+
+
+def test_a_model_that_knows_the_limit_never_makes_up_for_what_was_cut():
+    target = project(PRINTED, [1.0, 1.0]).reached
+    ends = []
+    for known in (5.0, np.inf):
+        controller = InternalModelController(PRINTED, target, mean_inverse(PRINTED), H, limit=known)
+        run = run_gripper(PRINTED, controller, duration=12.0, limit=5.0)
+        ends.append(run.angles[0, -1] / target[0])
+    assert ends[0] < 0.5
+    assert ends[1] == pytest.approx(1, abs=1e-3)
+
+
+def test_impossible_arguments_are_refused():
+    with pytest.raises(InvalidInputError, match="shape"):
+        InternalModelController(PRINTED, [1.0], mean_inverse(PRINTED), H)
+    with pytest.raises(InvalidInputError, match="delay"):
+        InternalModelController(PRINTED, TARGET, mean_inverse(PRINTED), H, delay_samples=-1)
+    with pytest.raises(InvalidInputError, match="measured"):
+        InternalModelController(PRINTED, TARGET, mean_inverse(PRINTED), H).update(np.zeros(3))
