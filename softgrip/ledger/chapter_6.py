@@ -240,12 +240,6 @@ def transient_difference_on_rig(controller: str) -> float:
 
 
 @simulated
-def push_recovery(within: float = 1.0) -> float:
-    """Return the time after a push on the left finger until both are back within deg, in s."""
-    return gripper_results.recovery(within * DEG)
-
-
-@simulated
 def identified(finger: str, parameter: str) -> float:
     """Return what the simulated gripper's steps identify, the mean of the runs, SI by mass."""
     runs = gripper_results.identified("open")[SIDE[finger]]

@@ -81,11 +81,14 @@ def push_response(*, runs: int = 50) -> tuple[Floats, Floats]:
     return pushed.time[after] - PUSH_FROM, off[after].T
 
 
-def recovery(within: float = 1 * DEG) -> float:
-    """Return the time from the end of the push until both fingers stay within an angle, s."""
+def recovery(within: float = 1 * DEG) -> Floats:
+    """Return the time from the end of the push until each finger stays within an angle, s.
+
+    Shape (fingers,); 0 for a finger that the push does not move so far.
+    """
     time, off = push_response()
-    beyond = np.flatnonzero(np.abs(off).max(axis=0) > within)
-    return float(time[beyond[-1]] - (PUSH_UNTIL - PUSH_FROM)) if beyond.size else 0.0
+    last = [time[np.flatnonzero(np.abs(one) > within)[-1:]].sum() for one in off]
+    return np.maximum(np.array(last) - (PUSH_UNTIL - PUSH_FROM), 0.0)
 
 
 def volume_for(count: int, angle: float) -> float:

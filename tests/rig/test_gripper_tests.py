@@ -169,7 +169,9 @@ def test_a_push_is_worked_off_but_moves_the_other_finger_too():
     time, off = push_response()
     assert -3 * DEG < off[0].min() < -1 * DEG
     assert 0.2 * DEG < off[1].max() < 1 * DEG
-    assert 0 < recovery() < 1.5
+    left, right = recovery()
+    assert right < left
+    assert 0 < left < 1.5
     assert abs(off[:, -1]).max() < 0.1 * DEG
     assert time[0] == pytest.approx(0, abs=1e-9)
 
