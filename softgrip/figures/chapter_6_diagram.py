@@ -3,7 +3,8 @@
 from typing import Any
 
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, Rectangle
+from matplotlib.patches import Circle, FancyArrowPatch, Rectangle
+from matplotlib.path import Path
 
 from softgrip.figures.exhibit import figure
 from softgrip.figures.style import BLUE, GREY, VERMILION, WIDTH
@@ -19,14 +20,12 @@ def _sum(axes: Any, x: float, y: float) -> None:
     axes.add_patch(Circle((x, y), 0.14, fc="white", ec=GREY, lw=1.4))
 
 
-def _arrow(axes: Any, *path: tuple[float, float], colour: str = GREY) -> None:
-    *before, last = path
-    xs, ys = zip(*before, strict=True)
-    axes.plot(xs, ys, color=colour, lw=1.4, solid_joinstyle="miter")
-    axes.annotate(
-        "", last, before[-1], arrowprops={"arrowstyle": "-|>", "color": colour, "lw": 1.4,
-                                          "shrinkA": 0, "shrinkB": 0},
-    )  # fmt: skip
+def _arrow(axes: Any, *points: tuple[float, float], colour: str = GREY) -> None:
+    axes.add_patch(
+        FancyArrowPatch(
+            path=Path(points), arrowstyle="-|>", mutation_scale=11, color=colour, lw=1.4, fill=False
+        )
+    )
 
 
 @figure(
@@ -38,6 +37,7 @@ def _arrow(axes: Any, *path: tuple[float, float], colour: str = GREY) -> None:
     "u_c, which drives the real fingers and the model P side by side. The difference of their "
     "angles, y_delta, passes H P-dagger and gives u_fb.",
     provenance=Provenance.PRINTED,
+    drawing=True,
 )
 def figure_6_3() -> Figure:
     """Draw the scheme of feedforward and feedback."""

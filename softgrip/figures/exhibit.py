@@ -30,6 +30,8 @@ class Exhibit:
     """Class of what is shown; the data files have their own."""
     sources: str = ""
     """Data that are not files of the project, in words."""
+    drawing: bool = False
+    """Whether it is a drawing, such as a block diagram, with no numbers to give as CSV."""
 
     @property
     def name(self) -> str:
@@ -89,11 +91,12 @@ def _register(
     data: tuple[str, ...],
     provenance: Provenance,
     sources: str,
+    drawing: bool = False,
 ) -> Callable[[Make], Make]:
     def keep(make: Make) -> Make:
         files = tuple(data_file(name) for name in data)
         EXHIBITS[kind, number] = Exhibit(
-            kind, number, caption, alt, make, files, provenance, sources
+            kind, number, caption, alt, make, files, provenance, sources, drawing
         )
         return make
 
@@ -108,6 +111,7 @@ def figure(
     provenance: Provenance,
     data: tuple[str, ...] = (),
     sources: str = "",
+    drawing: bool = False,
 ) -> Callable[[Make], Make]:
     """Register a function that returns a matplotlib Figure.
 
@@ -125,8 +129,10 @@ def figure(
         The files below ``data/`` that it is drawn from.
     sources
         Other data that it is drawn from, in words.
+    drawing
+        Whether no numbers stand behind it.
     """
-    return _register("figure", number, caption, alt, data, provenance, sources)
+    return _register("figure", number, caption, alt, data, provenance, sources, drawing)
 
 
 def table(

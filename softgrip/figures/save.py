@@ -82,7 +82,7 @@ def svg(figure: Figure) -> bytes:
 
 
 def save(exhibit: Exhibit, folder: Path) -> tuple[Any, float]:
-    """Make an exhibit and write it: a figure as SVG and CSV, a table as CSV.
+    """Make an exhibit and write it: figures as SVG and CSV, tables as CSV, drawings as SVG.
 
     Returns
     -------
@@ -95,6 +95,8 @@ def save(exhibit: Exhibit, folder: Path) -> tuple[Any, float]:
     table = made
     if exhibit.kind == "figure":
         path.with_suffix(".svg").write_bytes(svg(made))
+        if exhibit.drawing:
+            return made, seconds
         table = numbers(made)
     table.to_csv(path.with_suffix(".csv"), index=False, float_format="%.8g", lineterminator="\n")
     return made, seconds

@@ -97,7 +97,9 @@ class Shown:
                     self.verdicts,
                     *self._facts(),
                     f"{{py:func}}`source <{source}>`",
-                    f"{{download}}`numbers as CSV </{FOLDER}/{item.name}.csv>`",
+                    ""
+                    if item.drawing
+                    else f"{{download}}`numbers as CSV </{FOLDER}/{item.name}.csv>`",
                 ],
             )
         )

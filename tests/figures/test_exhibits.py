@@ -29,7 +29,12 @@ def test_files_are_the_same_to_the_bit(item, saved):
 
 @pytest.mark.parametrize("item", ALL, ids=lambda item: item.title)
 def test_csv_holds_finite_numbers(item, saved):
-    frame = pd.read_csv(saved[0][0] / f"{item.name}.csv")
+    path = saved[0][0] / f"{item.name}.csv"
+    assert path.exists() != item.drawing
+    if item.drawing:
+        assert not any(axes.axison for axes in saved[1][item.title][0].axes)
+        return
+    frame = pd.read_csv(path)
     assert len(frame) >= 2
     if item.kind == "figure":
         assert frame[["x", "y"]].notna().all(axis=None)
@@ -45,7 +50,7 @@ def test_what_stands_beside_it_is_there(item, saved):
 
 def test_axes_of_every_figure_are_named(saved):
     for item in ALL:
-        if item.kind == "figure":
+        if item.kind == "figure" and not item.drawing:
             frame = pd.read_csv(saved[0][0] / f"{item.name}.csv")
             assert frame[["x_is", "y_is"]].notna().all(axis=None), item.title
 
