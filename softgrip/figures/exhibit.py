@@ -61,6 +61,19 @@ class Exhibit:
 
 EXHIBITS: dict[tuple[Kind, str], Exhibit] = {}
 CHAPTERS = {
+    "2": (
+        "chapter_2_element",
+        "chapter_2_pad",
+        "chapter_2_kind",
+        "chapter_2_force",
+        "chapter_2_grasp",
+        "chapter_2_diagrams",
+        "tables_2_element",
+        "tables_2_pad",
+        "tables_2_kind",
+        "tables_2_force",
+        "tables_2_grasp",
+    ),
     "3": ("chapter_3", "chapter_3_fem", "chapter_3_control", "tables_3", "tables_3_control"),
     "4": ("chapter_4", "chapter_4_control", "tables_4"),
     "5": (

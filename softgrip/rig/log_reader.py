@@ -1,13 +1,15 @@
 """Reading a log of any back end: what is safely mended is mended and said, the rest is refused."""
 
 import re
+from collections.abc import Mapping
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.provenance import Provenance
-from softgrip.rig.log_schema import COLUMNS, EVENT, KNOWN_UNITS, SCHEMA, Log, LogHeader
+from softgrip.rig.log_schema import EVENT, KNOWN_UNITS, SCHEMA, Log, LogHeader, SetUp
 
 _NAME = re.compile(r"^(?P<name>[^\[\]]+) \[(?P<unit>[^\[\]]+)\]$")
 
@@ -34,7 +36,9 @@ def _header(path: Path, lines: list[str]) -> tuple[LogHeader, int]:
         own = ("source", "back_end", "board", "firmware", "calibration", "seed")
         words = {name: keys.pop(name) for name in own}
         provenance, period = Provenance(keys.pop("provenance")), float(keys.pop("period"))
-        return LogHeader(provenance=provenance, period=period, **words, notes=keys), count
+        set_up = cast(SetUp, keys.pop("set_up", "gripper"))  # LogHeader refuses another one
+        header = LogHeader(provenance, period=period, set_up=set_up, **words, notes=keys)
+        return header, count
     except KeyError as error:
         raise DataFileError(
             path, expected=f"{error.args[0]!r} in the header", got="none", line=count
@@ -43,8 +47,18 @@ def _header(path: Path, lines: list[str]) -> tuple[LogHeader, int]:
         raise DataFileError(path, expected="a valid header", got=str(error), line=count) from None
 
 
-def _columns(path: Path, text: str, line: int) -> tuple[list[str], list[float], list[str]]:
-    """Return the names of the columns, factors into their units, and what was converted."""
+def _columns(
+    path: Path, text: str, line: int, columns: Mapping[str, str]
+) -> tuple[list[str], list[float], list[str]]:
+    """Return the names of the columns, factors into their units, and what was converted.
+
+    Parameters
+    ----------
+    path, text, line
+        The line of names, and where it stands.
+    columns
+        Those that must be there, with their units.
+    """
     cells = text.split(",")
     if cells[-1] != EVENT:
         raise DataFileError(path, expected=f"the last column {EVENT!r}", got=cells[-1], line=line)
@@ -54,7 +68,7 @@ def _columns(path: Path, text: str, line: int) -> tuple[list[str], list[float], 
         if found is None:
             raise DataFileError(path, expected="'name [unit]'", got=repr(cell), line=line)
         name, unit = found["name"], found["unit"]
-        wanted = COLUMNS.get(name, unit)
+        wanted = columns.get(name, unit)
         factor = 1.0 if unit == wanted else KNOWN_UNITS.get((unit, wanted))
         if factor is None:
             raise DataFileError(path, expected=f"{name} in {wanted}", got=unit, line=line)
@@ -62,11 +76,11 @@ def _columns(path: Path, text: str, line: int) -> tuple[list[str], list[float], 
             repairs.append(f"{name} was converted from {unit} to {wanted}")
         names.append(name)
         factors.append(factor)
-    missing = [name for name in COLUMNS if name not in names]
+    missing = [name for name in columns if name not in names]
     if missing or len(set(names)) < len(names):
         raise DataFileError(
             path,
-            expected=f"the columns {', '.join(COLUMNS)}, once each",
+            expected=f"the columns {', '.join(columns)}, once each",
             got=f"no {', '.join(missing)}" if missing else "one twice",
             line=line,
         )
@@ -101,7 +115,7 @@ def read_log(path: Path | str) -> Log:
     header, line = _header(file, lines)
     if line >= len(lines):
         raise DataFileError(file, expected="a line of column names", got="the end", line=line + 1)
-    names, factors, repairs = _columns(file, lines[line], line + 1)
+    names, factors, repairs = _columns(file, lines[line], line + 1, header.columns)
     if cut:
         repairs.append(f"the cut last line, {len(lines) + 1}, was left out")
     rows: list[list[float]] = []

@@ -1,14 +1,20 @@
-"""What a log of the rig holds, whatever made it: a simulated rig, a replay, or a board."""
+"""What a log of the rig holds, whatever made it: a simulated rig, a replay, or a board.
+
+A log says its set-up: the gripper, which needs not be said, or the tactile pad of Chapter 2.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from typing import Literal, get_args
 
 from softgrip.errors import InvalidInputError
 from softgrip.materials.arrays import Floats
 from softgrip.provenance import Provenance
-from softgrip.units import DEG, MM, PSI, REV, MPa
+from softgrip.units import DEG, GRAM_FORCE, MM, PSI, REV, MPa
 
 SCHEMA = "softgrip-log 1"
+
+SetUp = Literal["gripper", "pad"]
 
 COLUMNS = {
     "time": "s",
@@ -18,7 +24,21 @@ COLUMNS = {
     "pressure": "Pa",
     "angle": "rad",
 }
-"""Columns that each log has, in this order, with their units; more may follow them."""
+"""Columns of each log of the gripper, in this order, with their units; more may follow them."""
+
+PAD_CHANNELS = (*(f"element_{k}" for k in range(1, 9)), "layer")
+"""Channels of the pad: the elements of the feature-detection layer, the force layer."""
+
+PAD_COLUMNS = {
+    "time": "s",
+    "command": "N",
+    **{f"{channel}_counts": "count" for channel in PAD_CHANNELS},
+    **dict.fromkeys(PAD_CHANNELS, "V"),
+}
+"""Columns of each log of the pad; the command is the force with which something is pressed."""
+
+SET_UPS: Mapping[SetUp, Mapping[str, str]] = {"gripper": COLUMNS, "pad": PAD_COLUMNS}
+"""Columns by set-up."""
 
 EVENT = "event"
 """The last column: words on what happened, mostly empty."""
@@ -33,6 +53,9 @@ KNOWN_UNITS: Mapping[tuple[str, str], float] = {
     ("MPa", "Pa"): MPa,
     ("psi", "Pa"): PSI,
     ("mm", "m"): MM,
+    ("mV", "V"): 1e-3,
+    ("mN", "N"): 1e-3,
+    ("gf", "N"): GRAM_FORCE,
 }
 """Factors of the units that a reader converts, by (found, expected)."""
 
@@ -59,6 +82,8 @@ class LogHeader:
         Sampling period, s.
     notes
         More keys and values, of one line each.
+    set_up
+        What was logged: gripper or pad.
     """
 
     provenance: Provenance
@@ -70,12 +95,15 @@ class LogHeader:
     calibration: str = "none"
     seed: str = ""
     notes: Mapping[str, str] = field(default_factory=dict)
+    set_up: SetUp = "gripper"
 
     def __post_init__(self) -> None:
         if self.provenance not in (Provenance.SIMULATED, Provenance.LOGGED):
             raise InvalidInputError(
                 "provenance", expected="simulated or logged", got=str(self.provenance)
             )
+        if self.set_up not in get_args(SetUp):
+            raise InvalidInputError("set_up", expected=f"{get_args(SetUp)}", got=self.set_up)
         if not 0 < self.period < float("inf"):
             raise InvalidInputError("period", expected="a finite number > 0", got=self.period)
         own = {entry.name for entry in fields(self)} | {"schema"}
@@ -87,12 +115,20 @@ class LogHeader:
                 "notes", expected=f"keys other than {sorted(own)}", got=self.notes
             )
 
+    @property
+    def columns(self) -> Mapping[str, str]:
+        """Columns that a log of this set-up has, with their units."""
+        return SET_UPS[self.set_up]
+
     def lines(self) -> dict[str, str]:
         """Return the header's keys and values in the order in which they are written."""
+        # The logs that came before the pad do not say a set-up: they are the gripper's.
+        set_up = {} if self.set_up == "gripper" else {"set_up": str(self.set_up)}
         return {
             "provenance": str(self.provenance),
             "source": self.source,
             "schema": SCHEMA,
+            **set_up,
             "back_end": self.back_end,
             "board": self.board,
             "firmware": self.firmware,

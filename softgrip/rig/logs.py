@@ -10,7 +10,7 @@ from typing import Self
 import numpy as np
 
 from softgrip.errors import InvalidInputError
-from softgrip.rig.log_schema import COLUMNS, EVENT, LogHeader
+from softgrip.rig.log_schema import EVENT, LogHeader
 
 SYNC_EVERY = 1.0
 """Longest time, s, that a written row waits for the disk, as long as rows keep coming."""
@@ -28,7 +28,7 @@ class LogWriter:
     header
         What stands before the rows.
     more
-        Columns beside `log_schema.COLUMNS`, with their units.
+        Columns beside those of the header's set-up, with their units.
     clock
         Gives the seconds by which the disk is reached.
 
@@ -58,7 +58,7 @@ class LogWriter:
         more: Mapping[str, str] | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self.units = {**COLUMNS, **(more or {})}
+        self.units = {**header.columns, **(more or {})}
         for name, unit in self.units.items():
             if any(c in name + unit for c in ",\r\n[]") or name == EVENT:
                 raise InvalidInputError("more", expected="plain names and units", got=(name, unit))

@@ -20,6 +20,8 @@ from softgrip.rig.closed_loop_logs import CLOSED_LOOPS, PERIOD, SEED, write_clos
 from softgrip.rig.gripper_logs import GRIPPER_LOGS, write_gripper_log
 from softgrip.rig.log_schema import LogHeader
 from softgrip.rig.logs import LogWriter
+from softgrip.rig.pad_logs import write_pad_log
+from softgrip.rig.pad_protocol import PAD_TESTS
 from softgrip.rig.parameters import PumpParameters, RigParameters
 from softgrip.rig.plant import SimulatedRig
 from softgrip.rig.step_tests import step_commands
@@ -97,7 +99,8 @@ def make(name: str, folder: Path | None = None) -> Path:
     Parameters
     ----------
     name
-        One of `recipes`, of `closed_loop_logs.CLOSED_LOOPS` or of `gripper_logs.GRIPPER_LOGS`.
+        One of `recipes`, of `closed_loop_logs.CLOSED_LOOPS`, of `gripper_logs.GRIPPER_LOGS` or of
+        `pad_protocol.PAD_TESTS`.
     folder
         Where to write it; None for ``data/simulated/``.
 
@@ -107,7 +110,7 @@ def make(name: str, folder: Path | None = None) -> Path:
         If there is no such recipe.
     """
     known = recipes()
-    if name not in (names := [*known, *CLOSED_LOOPS, *GRIPPER_LOGS]):
+    if name not in (names := [*known, *CLOSED_LOOPS, *GRIPPER_LOGS, *PAD_TESTS]):
         raise UnknownNameError("simulated log", name, names)
     path = (data_folder() / FOLDER if folder is None else folder) / f"{name}.csv"
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -116,6 +119,8 @@ def make(name: str, folder: Path | None = None) -> Path:
         write_closed_loop(name, path, f"{COMMAND} {name}")
     elif name in GRIPPER_LOGS:
         write_gripper_log(name, path, f"{COMMAND} {name}")
+    elif name in PAD_TESTS:
+        write_pad_log(name, path, f"{COMMAND} {name}")
     else:
         _write_open_loop(name, known[name], path)
     return path
@@ -162,7 +167,7 @@ def _write_open_loop(name: str, recipe: Recipe, path: Path) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Make the logs that are named, or all."""
-    names = [*recipes(), *CLOSED_LOOPS, *GRIPPER_LOGS]
+    names = [*recipes(), *CLOSED_LOOPS, *GRIPPER_LOGS, *PAD_TESTS]
     parser = argparse.ArgumentParser(prog=COMMAND, description="Make simulated logs.")
     parser.add_argument("name", nargs="*", help=", ".join(names))
     for name in parser.parse_args(arguments).name or names:

@@ -4,11 +4,31 @@ import os
 from pathlib import Path
 from time import perf_counter
 
-from tests.bench import controller, design, elastica, grippers, growth, rig, step_responses
+from tests.bench import (
+    controller,
+    design,
+    elastica,
+    grippers,
+    growth,
+    kernel_regression,
+    pad_reading,
+    rig,
+    step_responses,
+)
 from tests.bench.entry import table, write
 
 PATH = Path(__file__).parents[2] / "book" / "_build" / "bench.json"
-SUBJECTS = (step_responses, rig, growth, controller, design, elastica, grippers)
+SUBJECTS = (
+    step_responses,
+    rig,
+    growth,
+    controller,
+    design,
+    elastica,
+    grippers,
+    kernel_regression,
+    pad_reading,
+)
 
 
 def main() -> None:

@@ -14,6 +14,8 @@ from tests.bench import (
     elastica_runs,
     grippers,
     growth,
+    kernel_regression,
+    pad_reading,
     rig,
     step_responses,
 )
@@ -28,6 +30,8 @@ SMALL = {
     # Ours alone: PyElastica would have to be fetched.
     design: {"starts": 2, "rivals": ("SLSQP",)},
     elastica: {"elements": (), "runs": 3, "repetitions": 1},
+    kernel_regression: {"queries": 500, "other": 20, "repetitions": 1, "plain": 50},
+    pad_reading: {"count": 50, "plain": 5, "repetitions": 1},
     grippers: {"pairs": 4, "plain_pairs": 1, "growth": (2, 4, 8), "repetitions": 1},
 }
 KINDS = {

@@ -19,6 +19,8 @@ from softgrip.ledger import judge, read_claims
 from softgrip.ledger.__main__ import expected
 from softgrip.materials import fitting, least_squares, power_curve, powerlaw
 from softgrip.pump import flow, gas
+from softgrip.tactile import element, hertz
+from softgrip.tactile import lift as lifting
 
 CASES: list[tuple[str, Callable, str, str, str]] = [
     (
@@ -172,6 +174,31 @@ CHAPTER_3: list[tuple[str, Callable, str, str, str]] = [
 ]
 
 
+CHAPTER_2: list[tuple[str, Callable, str, str, str]] = [
+    (
+        "Eq. (2.1): a taper that does not divide",
+        element.compliance,
+        "1 / k if",
+        "1 if",
+        "table-2.1-pyramid-analytics-0-1-n",
+    ),
+    (
+        "Eq. (2.2): the whole of the force in place of three quarters",
+        hertz.hertz_approach,
+        "0.75 *",
+        "1.0 *",
+        "table-2.1-hemisphere-hertzian-0-1-n",
+    ),
+    (
+        "Eq. (2.8): one finger only",
+        lifting.contact_force,
+        "(2 * friction)",
+        "friction",
+        "2.4-desired-force-egg",
+    ),
+]
+
+
 CHAPTER_6: list[tuple[str, Callable, str, str, str]] = [
     (
         "Eq. (6.25): a direction without the fingers' stiffness",
@@ -233,4 +260,9 @@ def test_broken_equation_of_chapter_3_turns_a_verdict(case, monkeypatch):
 
 @pytest.mark.parametrize("case", CHAPTER_6, ids=lambda case: case[0])
 def test_broken_equation_of_chapter_6_turns_a_verdict(case, monkeypatch):
+    turns(*case, monkeypatch)
+
+
+@pytest.mark.parametrize("case", CHAPTER_2, ids=lambda case: case[0])
+def test_broken_equation_of_chapter_2_turns_a_verdict(case, monkeypatch):
     turns(*case, monkeypatch)

@@ -1,0 +1,139 @@
+"""Drawings of Chapter 2: elements under load, the classifier's code, the loop of the gripper."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, FancyArrowPatch, Polygon, Rectangle
+from matplotlib.path import Path
+
+from softgrip.figures.exhibit import figure
+from softgrip.figures.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, WIDTH
+from softgrip.provenance import Provenance
+
+RUBBER = "#E8EEF4"
+
+
+def _arrow(axes: Any, *points: tuple[float, float], colour: str = GREY, style: str = "-|>") -> None:
+    axes.add_patch(
+        FancyArrowPatch(path=Path(points), arrowstyle=style, mutation_scale=10, color=colour,
+                        lw=1.4, fill=False)
+    )  # fmt: skip
+
+
+def _block(axes: Any, x: float, y: float, text: str, colour: str, width: float = 1.5) -> None:
+    axes.add_patch(Rectangle((x - width / 2, y - 0.35), width, 0.7, fc="white", ec=colour, lw=1.4))
+    axes.text(x, y, text, ha="center", va="center", fontsize=9)
+
+
+def _profiles() -> dict[str, Any]:
+    """Return the side views, corners (x, y), 2 wide and 1 high."""
+    turn = np.linspace(0, np.pi, 60)
+    return {
+        "cylinder": np.array([(-1, 0), (-1, 1), (1, 1), (1, 0)]),
+        "hemisphere": np.stack([np.cos(turn), np.sin(turn)], axis=1),
+        "pyramid": np.array([(-1, 0), (-0.12, 1), (0.12, 1), (1, 0)]),
+    }
+
+
+@figure(
+    "2.4",
+    caption="The three shapes of Eq. (2.1) from the side, redrawn: height L, width w, the section "
+    "A(y) at a height y, and the load F. The pyramid has the flat top, 0.12 w wide, that Table 2.1 "
+    "asks for.",
+    alt="Side views of a cylinder, a hemisphere and a cut pyramid on a ground line. A red arrow F "
+    "presses on the top of each; a blue line across each, at a height y, is the section A(y). L is "
+    "the height, w the width.",
+    provenance=Provenance.PRINTED,
+    drawing=True,
+)
+def figure_2_4() -> Figure:
+    """Draw the elements under load."""
+    drawn = Figure(figsize=(WIDTH, 2.1))
+    axes = drawn.subplots()
+    y = 0.45
+    for k, (name, corners) in enumerate(_profiles().items()):
+        middle = 3.0 * k
+        axes.add_patch(Polygon(corners + np.array((middle, 0)), fc=RUBBER, ec=BLACK, lw=1.2))
+        half = {"cylinder": 1.0, "hemisphere": (1 - y**2) ** 0.5, "pyramid": 1 - 0.88 * y}[name]
+        axes.plot((middle - half, middle + half), (y, y), color=BLUE, lw=1.8)
+        axes.text(middle, y + 0.05, "$A(y)$", color=BLUE, ha="center", va="bottom", fontsize=9)
+        _arrow(axes, (middle, 1.6), (middle, 1.02), colour=VERMILION)
+        axes.text(middle + 0.12, 1.4, "$F$", color=VERMILION)
+        axes.text(middle, -0.62, name, ha="center", va="top")
+    axes.plot((-1.3, 7.3), (0, 0), color=GREY, lw=1.4)
+    _arrow(axes, (-1.35, 0.0), (-1.35, 1.0), style="<|-|>")
+    axes.text(-1.5, 0.5, "$L$", ha="right", va="center")
+    _arrow(axes, (5.0, -0.25), (7.0, -0.25), style="<|-|>")
+    axes.text(6, -0.3, "$w$", ha="center", va="top")
+    _arrow(axes, (1.3, 0.0), (1.3, y), style="<|-|>", colour=BLUE)
+    axes.text(1.38, y / 2, "$y$", color=BLUE, va="center")
+    axes.set(xlim=(-1.9, 7.4), ylim=(-1.0, 1.75), aspect="equal")
+    axes.set_axis_off()
+    return drawn
+
+
+@figure(
+    "2.6",
+    caption="The classifier, redrawn: the responses of the eight elements, Eq. (2.3), go in, one "
+    "of three codes comes out, Eq. (2.4).",
+    alt="The vector V of eight responses between 0 and 1 enters a block named classifier. Out of "
+    "it come three codes: point is 1 0 0, line is 0 1 0, surface is 0 0 1.",
+    provenance=Provenance.PRINTED,
+    drawing=True,
+)
+def figure_2_6() -> Figure:
+    """Draw the classifier's input and output."""
+    drawn = Figure(figsize=(WIDTH, 1.8))
+    axes = drawn.subplots()
+    axes.text(0.75, 0, "$V = [v_1, \\ldots, v_8]^T$\n$0 \\leq v_i \\leq 1$", ha="center",
+              va="center", linespacing=1.8)  # fmt: skip
+    _arrow(axes, (1.9, 0), (2.55, 0))
+    _block(axes, 3.35, 0, "classifier", BLUE, 1.6)
+    codes = (("point", "1\\ 0\\ 0", ORANGE), ("line", "0\\ 1\\ 0", GREEN),
+             ("surface", "0\\ 0\\ 1", VERMILION))  # fmt: skip
+    for row, (kind, code, colour) in enumerate(codes):
+        height = 0.8 * (1 - row)
+        _arrow(axes, (4.15, 0.2 * (1 - row)), (5.0, height), colour=colour)
+        axes.text(5.1, height, f"{kind}: $C_f = [{code}]^T$", va="center", color=BLACK)
+    axes.set(xlim=(-0.5, 7.6), ylim=(-1.2, 1.2), aspect="equal")
+    axes.set_axis_off()
+    return drawn
+
+
+@figure(
+    "2.12",
+    caption="The loop of the gripper, redrawn. Coulomb's law, Eq. (2.8), turns the wanted lift "
+    "force F_l into the contact force F_c; the PD controller turns its error e into a command C, "
+    "the servomotor into a position P, and the force F_m is what the pad then says.",
+    alt="Block diagram. F_l enters Coulomb's law and leaves as F_c; a circle subtracts F_m and "
+    "gives e; the PD controller gives C, the servomotor P, the object between fingers a force, and "
+    "the pad F_m, which goes back to the circle.",
+    provenance=Provenance.PRINTED,
+    drawing=True,
+)
+def figure_2_12() -> Figure:
+    """Draw the scheme of the force control."""
+    drawn = Figure(figsize=(WIDTH, 2.2))
+    axes = drawn.subplots()
+    _arrow(axes, (-0.1, 2), (0.6, 2), colour=BLUE)
+    _block(axes, 1.45, 2, "$F_l / 2\\mu$", BLUE, 1.7)
+    _arrow(axes, (2.3, 2), (3.06, 2), colour=BLUE)
+    axes.add_patch(Circle((3.2, 2), 0.14, fc="white", ec=GREY, lw=1.4))
+    _arrow(axes, (3.34, 2), (4.0, 2))
+    _block(axes, 4.5, 2, "PD", BLUE, 1.0)
+    _arrow(axes, (5.0, 2), (5.7, 2))
+    _block(axes, 6.65, 2, "servomotor", GREY, 1.9)
+    _arrow(axes, (7.6, 2), (8.3, 2), (8.3, 0.5), (7.6, 0.5))
+    _block(axes, 6.65, 0.5, "object", GREY, 1.9)
+    _arrow(axes, (5.7, 0.5), (5.0, 0.5))
+    _block(axes, 4.5, 0.5, "pad", GREEN, 1.0)
+    _arrow(axes, (4.0, 0.5), (3.2, 0.5), (3.2, 1.86), colour=GREEN)
+    for x, y, text in (
+        (0.15, 2.25, "$F_l$"), (2.65, 2.25, "$F_c$"), (3.65, 2.25, "$e$"), (5.33, 2.25, "$C$"),
+        (8.05, 2.25, "$P$"), (3.6, 0.75, "$F_m$"), (3.0, 1.65, "$-$"),
+    ):  # fmt: skip
+        axes.text(x, y, text, ha="center", va="center")
+    axes.set(xlim=(-0.2, 8.5), ylim=(0, 2.6), aspect="equal")
+    axes.set_axis_off()
+    return drawn

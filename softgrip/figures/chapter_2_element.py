@@ -1,0 +1,177 @@
+"""Figures of Section 2.2: the sensing elements under load."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from softgrip.actuator.elasticity import Elastic
+from softgrip.figures.exhibit import figure
+from softgrip.figures.style import BLUE, GREEN, GREY, ORANGE, PRINTED, WIDTH
+from softgrip.materials.arrays import Floats
+from softgrip.provenance import Provenance
+from softgrip.tactile import element_results
+from softgrip.tactile.element import SHAPES, TABLE_MODULUS, Element, compliance
+from softgrip.tactile.element_fem import middle_section, solve
+from softgrip.tactile.element_resistance import AT_REST, CEILING
+from softgrip.tactile.element_results import STATED_CYLINDER, finest
+from softgrip.tactile.element_sensitivity import least_force, resistance_under
+from softgrip.tactile.element_table import ASSUMED
+from softgrip.units import MM
+
+COLOURS = {"cylinder": BLUE, "hemisphere": ORANGE, "pyramid": GREEN}
+DASHES = {"cylinder": "-", "hemisphere": "--", "pyramid": "-."}
+DIVISIONS = {"cylinder": 16, "hemisphere": 16, "pyramid": 4}
+"""Of the pictures, coarse: `element_convergence.csv` says what they leave out."""
+
+PRINTED_LEAST = {"cylinder": 0.1, "hemisphere": 0.02, "pyramid": 0.01}
+"""Least forces felt as Section 2.2 prints them, N."""
+
+
+def read_threshold() -> float:
+    """Return the change that a pyramid shows at its printed least force, Ohm."""
+    return float(resistance_under(ASSUMED["pyramid"], PRINTED_LEAST["pyramid"])) - AT_REST
+
+
+@figure(
+    "2.3",
+    caption="Resistance of the three elements over load, *simulated*: deformation by Eq. (2.1) "
+    "with E = 0.125 MPa for the elements that the analytic rows of Table 2.1 ask for, and a skin "
+    "that gets thinner as the element gets shorter; from 1 MOhm to 1.5 MOhm, both printed. Below, "
+    "the change alone: the dotted line is what the pyramid shows at its printed least force, 0.01 "
+    "N (so this point is no finding); rings are the printed least forces of all three.",
+    alt="Two panels. Above, the pyramid's resistance rises to the ceiling of 1.5 megohm at 0.18 "
+    "newton, the hemisphere's at 0.37, and the cylinder's has hardly risen at 0.4. Below, on "
+    "logarithmic axes, three parallel lines cross the threshold at 0.01, 0.021 and 0.18 newton; "
+    "the printed forces are 0.01, 0.02 and 0.1.",
+    provenance=Provenance.SIMULATED,
+)
+def figure_2_3() -> Figure:
+    """Draw resistance over load, and where it can be read."""
+    drawn = Figure(figsize=(WIDTH, 6.0))
+    upper, lower = drawn.subplots(2, 1)
+    threshold = read_threshold()
+    for shape, element in ASSUMED.items():
+        look: dict[str, Any] = {"color": COLOURS[shape], "ls": DASHES[shape]}
+        load = np.linspace(0, 0.4, 201)
+        upper.plot(load, resistance_under(element, load) / 1e6, **look, label=shape)
+        load = np.geomspace(2e-3, 0.5, 101)
+        change = resistance_under(element, load) - AT_REST
+        rising = change < CEILING - AT_REST
+        lower.plot(load[rising], change[rising] / 1e3, **look, label=shape)
+        lower.plot([least_force(element, threshold)], [threshold / 1e3], "s", ms=5,
+                   color=COLOURS[shape], label=f"{shape}, least")  # fmt: skip
+        lower.plot([PRINTED_LEAST[shape]], [threshold / 1e3], "o", ms=11, mfc="none",
+                   color=COLOURS[shape], label=f"{shape}, printed")  # fmt: skip
+    lower.axhline(threshold / 1e3, color=GREY, ls=":")
+    upper.set(xlabel="load (N)", ylabel="resistance (MOhm)", title="(b) simulated")
+    upper.legend(loc="lower right", bbox_to_anchor=(1.0, 0.12))
+    lower.set(xlabel="load (N)", ylabel="change (kOhm)", xscale="log", yscale="log")
+    return drawn
+
+
+@figure(
+    "2.5",
+    caption="Middle section of each element under 0.1 N spread evenly over its top, by linear "
+    "finite elements with E = 0.1 MPa and nu = 0.49, clamped at the base; the sizes are those that "
+    "the analytic rows of Table 2.1 ask for. Colour: length of the displacement, drawn on the body "
+    "at rest; black: the outline it then has. The tops of hemisphere and pyramid move by a third "
+    "of the height and more, which a linear model cannot answer for. On the coarse mesh of the "
+    "picture the top moves by less than 1 % otherwise than on the finest.",
+    alt="Three sections coloured by displacement. The wide flat cylinder moves by up to 0.05 "
+    "millimetre, most at its bulging upper rim. The hemisphere hardly moves but for its small top, "
+    "which sinks in by 1.8 millimetre as a narrow pit. The pyramid's top goes down by 1.2 "
+    "millimetre, its lower half stays.",
+    provenance=Provenance.SIMULATED,
+)
+def figure_2_5() -> Figure:
+    """Draw the three deformed sections."""
+    drawn = Figure(figsize=(WIDTH, 6.2))
+    rubber = Elastic(TABLE_MODULUS, 0.49)
+    for axes, (shape, element) in zip(drawn.subplots(3, 1), ASSUMED.items(), strict=True):
+        at, per_force = middle_section(solve(element, DIVISIONS[shape], rubber))
+        moved = 0.1 * per_force
+        shown = _draw_section(axes, at / MM, moved / MM)
+        drawn.colorbar(shown, ax=axes, label="mm", shrink=0.6, aspect=10)
+        axes.set(title=f"{shape}: top moves {-moved[1, -1].min() / MM:.3f} mm", aspect="equal",
+                 xlim=(-5.6, 5.6), ylim=(-0.2, 3.3), xlabel="mm", ylabel="mm")  # fmt: skip
+    return drawn
+
+
+def _draw_section(axes: Any, at: Floats, moved: Floats) -> Any:
+    """Draw both halves of a section: colour by displacement, and the outline after; mm."""
+    size = np.hypot(*moved)
+    for side in (-1, 1):
+        shown = axes.pcolormesh(side * at[0], at[1], size, shading="gouraud", cmap="viridis",
+                                vmin=0, vmax=size.max(), rasterized=True)  # fmt: skip
+        x, z = at + moved
+        axes.plot(side * np.r_[x[:, -1], x[-1, ::-1]], np.r_[z[:, -1], z[-1, ::-1]], color="black",
+                  lw=1.0)  # fmt: skip
+    return shown
+
+
+@figure(
+    "2.A",
+    caption="Deformation by finite elements over the number of unknowns, as a part of that on the "
+    "finest mesh: the largest and the mean displacement of the top under an even load, and that of "
+    "a rigid plate, for the elements of Figure 2.5. The plate's edge on a small top converges "
+    "slowly: its values are some per cent too small.",
+    alt="Three panels. The cylinder's three curves stay within one per cent of one. The "
+    "hemisphere's largest and mean displacement come from one and six per cent below and flatten; "
+    "the plate's starts 23 per cent below and is still rising at the right end. The pyramid's "
+    "curves come from 5 to 13 per cent below and flatten.",
+    provenance=Provenance.SIMULATED,
+    data=("tactile/element_convergence.csv",),
+)
+def figure_2_a() -> Figure:
+    """Draw mesh convergence."""
+    drawn = Figure(figsize=(WIDTH, 6.4))
+    looks = {"largest": ("-o", BLUE), "mean": ("--s", ORANGE), "plate": ("-.^", GREEN)}
+    kept = element_results.read("convergence")
+    for axes, (shape, element) in zip(drawn.subplots(3, 1), ASSUMED.items(), strict=True):
+        last = finest(element)
+        rows = [r for r in kept if r.element == last.element]
+        for name, (look, colour) in looks.items():
+            parts = [getattr(r.top, name) / getattr(last.top, name) for r in rows]
+            axes.plot([r.unknowns for r in rows], parts, look, color=colour, label=name, ms=4)
+        axes.set(title=shape, xscale="log", xlabel="unknowns", ylabel="part")
+    drawn.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    return drawn
+
+
+@figure(
+    "2.B",
+    caption="Which shape gives way most, over the width of its flat top, at one width of the base "
+    "(6 mm), one height (3 mm) and one modulus (0.125 MPa): by Eq. (2.1), and by linear finite "
+    "elements (largest displacement of the evenly loaded top). The width of the top, which is not "
+    "printed, counts for more than the shape; by finite elements the hemisphere leads, whose round "
+    "top has the smaller area. Vertical lines: the tops that the analytic rows of Table 2.1 ask "
+    "for, 0.085 and 0.12.",
+    alt="On a logarithmic axis, millimetres per newton fall from sharp to flat tops. By the "
+    "equation pyramid and hemisphere fall from 13 and 3 to 0.7 and 0.8 and cross at a cut of 0.54. "
+    "By finite elements both fall from about 20 to below one, the hemisphere a little above the "
+    "pyramid for sharp tops and further above it for flat ones.",
+    provenance=Provenance.SIMULATED,
+    data=("tactile/element_cut.csv",),
+)
+def figure_2_b() -> Figure:
+    """Draw compliance over the cut."""
+    drawn = Figure(figsize=(WIDTH, 4.2))
+    axes = drawn.subplots()
+    cuts = np.linspace(0.05, 1, 96)
+    kept = element_results.read("cut")
+    for shape in SHAPES:
+        colour = COLOURS[shape]
+        rows = [r for r in kept if r.element.shape == shape]
+        if shape == "cylinder":
+            axes.axhline(compliance(STATED_CYLINDER) / MM, color=colour, label=f"{shape}, (2.1)")
+            axes.axhline(rows[0].top.largest / MM, color=colour, ls=":", label=f"{shape}, FEM")
+            continue
+        soft = [compliance(Element(shape, cut=float(cut))) / MM for cut in cuts]
+        axes.plot(cuts, soft, color=colour, label=f"{shape}, (2.1)")
+        axes.plot([r.element.cut for r in rows], [r.top.largest / MM for r in rows], ":o", ms=4,
+                  color=colour, label=f"{shape}, FEM")  # fmt: skip
+        axes.axvline(ASSUMED[shape].cut, color=PRINTED, lw=0.8)
+    axes.set(xlabel="width of the top (parts of the base's)", ylabel="mm per N", yscale="log")
+    axes.legend(ncols=1)
+    return drawn

@@ -1,0 +1,185 @@
+"""Figures of Chapter 2 on the contact force."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from softgrip.figures.exhibit import figure
+from softgrip.figures.style import BLUE, GREEN, GREY, MEASURED, ORANGE, SKY, VERMILION, WIDTH
+from softgrip.materials.arrays import Floats
+from softgrip.provenance import Provenance
+from softgrip.rig.force_layer_drift import DRIFT
+from softgrip.rig.force_layer_drift import kept as kept_drift
+from softgrip.rig.force_layer_logs import file_of, read
+from softgrip.rig.force_layer_protocols import CYCLE_FORCES, REPETITIONS
+from softgrip.rig.force_layer_study import (
+    COMPARISON,
+    RANDOM,
+    WHOLE,
+    kept_comparison,
+    weight_bandwidth,
+    weight_points,
+)
+from softgrip.tactile.bandwidth import left_out_error, tried_bandwidths
+from softgrip.tactile.force_comparison import regressors
+from softgrip.units import GRAM_FORCE
+
+POINTS, CYCLES = file_of("weights"), file_of("cycles")
+FOUR = {
+    "ordinary least squares": ORANGE,
+    "neural network": GREEN,
+    "k-nearest neighbours": SKY,
+    "Nadaraya-Watson": BLUE,
+}
+"""The regressors of Figure 2.9, and their colours."""
+
+SHOWN_START = 2.0
+"""h after the calibration, of the hours in Figure 2.G (a)."""
+
+CORRECTIONS = {
+    "without": ("as read", GREY, ":", "s"),
+    "repaired": ("a line at the start (Section 2.3)", ORANGE, "--", "o"),
+    "between": ("lines at both ends (ours)", BLUE, "-", "^"),
+}
+
+
+def draw_points(axes: Any) -> None:
+    """Draw the 69 points, force (gf) over voltage."""
+    voltage, force = weight_points()
+    axes.plot(voltage, force / GRAM_FORCE, "o", color=MEASURED, ms=2.5, label="weights")
+
+
+@figure(
+    "2.8",
+    caption="The *simulated* force-measurement layer. (a) Voltage of the 22 weights and of none, "
+    "three times each; its slope falls to about one count a gram-force at 0.7 N, to which the "
+    "layer is calibrated. Zero reads 0.25 V soon after 70 gf were taken off. (b) Three "
+    "cycles of 0.2, 0.5 and 0.7 N, laid over each other. (c) The same as loops: the assumed memory "
+    "of the layer keeps the voltage up when it is unloaded.",
+    alt="Three panels. In the first the voltage rises steeply from zero and flattens out at 3.9 "
+    "volts for 70 gram-force. In the second three plateaus at 2.7, 3.7 and 3.9 volts, each drawn "
+    "three times and hardly apart; after unloading a tail of some tenths of a volt dies away. In "
+    "the third three narrow loops of voltage over force, the unloading branch above the other.",
+    provenance=Provenance.SIMULATED,
+    data=(POINTS, CYCLES),
+)
+def figure_2_8() -> Figure:
+    """Draw the response of the layer, its cycles and its hysteresis."""
+    drawn = Figure(figsize=(WIDTH, 8.2))
+    first, second, third = drawn.subplots(3, 1)
+    voltage, force = weight_points()
+    first.plot(force / GRAM_FORCE, voltage, "o", color=MEASURED, ms=3, label="weights")
+    first.set(title="(a) response", xlabel="weight (gf)", ylabel="voltage (V)")
+    log = read("cycles")
+    length = len(log) // (len(CYCLE_FORCES) * REPETITIONS)
+    for k, (peak, colour) in enumerate(zip(CYCLE_FORCES, (SKY, ORANGE, BLUE), strict=True)):
+        for cycle, dash in enumerate(("-", "--", ":")):
+            start = (k * REPETITIONS + cycle) * length
+            rows = log.iloc[start : start + length]
+            time = rows["time [s]"] - rows["time [s]"].iloc[0]
+            label = f"{peak:g} N, cycle {cycle + 1}"
+            line = {"color": colour, "ls": dash, "lw": 1.2, "label": label}
+            second.plot(time, rows["voltage [V]"], **line)
+            third.plot(rows["weight [N]"], rows["voltage [V]"], **line)
+    handles = [axes for axes in second.lines if "cycle 1" in str(axes.get_label())]
+    second.legend(handles, [f"{peak:g} N" for peak in CYCLE_FORCES], loc="upper right")
+    second.set(title="(b) cycles", xlabel="time of the cycle (s)", ylabel="voltage (V)")
+    third.set(title="(c) hysteresis", xlabel="force (N)", ylabel="voltage (V)")
+    return drawn
+
+
+@figure(
+    "2.9",
+    caption="The four regressors on the 69 points of the *simulated* layer. Root mean square "
+    "errors where a fifth of the points is left out at random / where all points of a weight are "
+    "left out. With the first, the other measurements of the same weight stay in the training, "
+    "and the regressors that follow them look best; with the second, the network is.",
+    alt="Four panels of force over voltage. The line of least squares misses the points by up to "
+    "30 gram-force. The network goes smoothly through them. The nearest neighbours are a staircase "
+    "and so, with rounder edges, is the Nadaraya-Watson regressor.",
+    provenance=Provenance.SIMULATED,
+    data=(POINTS, COMPARISON),
+)
+def figure_2_9() -> Figure:
+    """Draw the fits of four regressors."""
+    drawn = Figure(figsize=(WIDTH, 5.4))
+    panels = drawn.subplots(2, 2, sharex=True, sharey=True)
+    voltage, force = weight_points()
+    grid: Floats = np.linspace(0, 4.05, 811)
+    errors, fitted = kept_comparison() / GRAM_FORCE, regressors()
+    for axes, (name, colour) in zip(panels.ravel(), FOUR.items(), strict=True):
+        draw_points(axes)
+        said = fitted[name].fit(voltage[:, None], force).predict(grid[:, None]) / GRAM_FORCE
+        axes.plot(grid, said, color=colour, label=name)
+        row = errors.loc[name]
+        axes.set(title=f"{name}\n{row[RANDOM]:.1f} / {row[WHOLE]:.1f} gf", ylim=(-15, 85))
+    for axes in panels[:, 0]:
+        axes.set_ylabel("force (gf)")
+    for axes in panels[1]:
+        axes.set_xlabel("voltage (V)")
+    return drawn
+
+
+@figure(
+    "2.G",
+    caption="Drift of the *simulated* layer, whose size is assumed, and its correction: root mean "
+    "square error of four weights (10 to 60 gf) in 40 hours each. (a) Within an hour that begins "
+    "2 h after the calibration. (b) Whole hours, over the time since the calibration. A line at "
+    "the start repairs what came before it, not what follows; right after the calibration it does "
+    "harm, as the few readings behind it err by more than the layer has drifted.",
+    alt="Two panels. In the first the error without correction is above ten gram-force "
+    "throughout; with the line at the start it grows from under two to nearly five in the hour; "
+    "with lines at both ends it stays near 1.2. In the second the error without correction grows "
+    "from three to 27 in eight hours, the other two stay near three and under two.",
+    provenance=Provenance.SIMULATED,
+    data=(DRIFT,),
+)
+def figure_2_g() -> Figure:
+    """Draw what the correction of drift repairs."""
+    drawn = Figure(figsize=(WIDTH, 6.0))
+    upper, lower = drawn.subplots(2, 1)
+    errors = kept_drift() / GRAM_FORCE
+    within = errors.loc[SHOWN_START]
+    over = (errors**2).groupby(level="start").mean() ** 0.5
+    for name, (label, colour, dash, marker) in CORRECTIONS.items():
+        shown = {"color": colour, "ls": dash, "marker": marker, "label": label}
+        upper.plot(12 * within.index.to_numpy() - 6, within[name], **shown)
+        lower.plot(over.index, over[name], **shown)
+    upper.set(title="(a) within the hour", xlabel="time in the hour (min)")
+    lower.set(title="(b) over the hours", xlabel="time from calibration to start (h)")
+    for axes in (upper, lower):
+        axes.set(ylabel="error (gf)", ylim=(0, None))
+    drawn.legend(*upper.get_legend_handles_labels(), loc="outside lower center", fontsize=9)
+    return drawn
+
+
+@figure(
+    "2.H",
+    caption="Error of the Nadaraya-Watson regressor on points of the *simulated* layer that are "
+    "left out, over its bandwidth, which is not printed; dots: the best. Left out one at a time, "
+    "two measurements of the same weight remain, and the kernel may be as narrow as their noise; "
+    "left out a weight at a time, as an object's weight is, it has to reach the next one.",
+    alt="Two curves over a logarithmic axis. Leaving out points, the error is lowest, 0.6 gram-"
+    "force, at a bandwidth of 0.011 volts; leaving out weights, it is lowest, 2.9, at 0.08 volts. "
+    "Above 0.3 volts they rise together.",
+    provenance=Provenance.SIMULATED,
+    data=(POINTS,),
+)
+def figure_2_h() -> Figure:
+    """Draw the error of what is left out over the bandwidth."""
+    drawn = Figure(figsize=(WIDTH, 3.4))
+    axes = drawn.subplots()
+    voltage, force = weight_points()
+    points, tried = voltage[:, None], tried_bandwidths(voltage[:, None])
+    for whole, colour, dash in ((False, ORANGE, "--"), (True, BLUE, "-")):
+        groups = force if whole else None
+        errors = [left_out_error(points, force, float(b), groups=groups) for b in tried]
+        label = "a weight at a time" if whole else "a point at a time"
+        axes.plot(tried, np.array(errors) / GRAM_FORCE, dash, color=colour, label=label)
+        best = weight_bandwidth(whole)
+        least = left_out_error(points, force, best, groups=groups) / GRAM_FORCE
+        axes.plot([best], [least], "o", color=VERMILION, label=f"best, {label}")
+    axes.set(xlabel="bandwidth (V)", ylabel="error (gf)", xscale="log", yscale="log")
+    axes.legend(*(x[::2] for x in axes.get_legend_handles_labels()), loc="upper left")
+    return drawn

@@ -1,0 +1,142 @@
+"""Figures of Chapter 2 on the grasp with the tactile sensor."""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from softgrip.figures.exhibit import figure
+from softgrip.figures.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, WIDTH
+from softgrip.provenance import Provenance
+from softgrip.rig.force_layer_logs import file_of
+from softgrip.rig.pad_grasp_gripper import GraspGripper
+from softgrip.rig.pad_grasp_study import (
+    FRICTION,
+    OBJECTS,
+    desired_force,
+    position_gains,
+    position_study,
+    squeezes,
+    study,
+)
+from softgrip.tactile.force_control import largest_loop_gain
+from softgrip.tactile.friction import PRINTED_GRASPS, common_friction, printed_grasps
+from softgrip.tactile.lift import contact_force
+
+DATA = (PRINTED_GRASPS, file_of("weights"))
+
+
+@figure(
+    "2.14",
+    caption="Force while the *simulated* gripper closes on the three objects, from 5 mm away, one "
+    "pair of gains for all. Orange: desired, as printed. Blue: what the pad says in one grasp; "
+    "band: 5 to 95 % of 200. Black: true force of that grasp, and for all of them the dotted lines "
+    "of 5 and 95 %. Grey: least force that bears the printed weight with a friction coefficient of "
+    "1, which the print leaves possible.",
+    alt="Three panels over time. The measured force follows the orange line from below: the egg's "
+    "within about half a second, the carrot's in one and a half, the tofu's in two and a half. "
+    "None swings over by much. The true force ends a few per cent beside the measured one. The "
+    "grey line of the egg lies on the desired force, those of tofu and carrot below it.",
+    provenance=Provenance.SIMULATED,
+    data=DATA,
+)
+def figure_2_14() -> Figure:
+    """Draw desired, measured and true force of the three grasps."""
+    drawn = Figure(figsize=(WIDTH, 6.6))
+    panels = drawn.subplots(3, 1, sharex=True)
+    for axes, letter, name in zip(panels, "abc", OBJECTS, strict=True):
+        made = study(name)
+        low, high = np.percentile(made.measured, (5, 95), axis=0)
+        axes.fill_between(made.time, low, high, color=BLUE, alpha=0.25, lw=0)
+        least = contact_force(float(printed_grasps()[name].weight), FRICTION)
+        axes.axhline(least, color=GREY, ls=(0, (1, 1)), lw=2.4, label="bears the weight")
+        axes.axhline(made.desired, color=ORANGE, label="desired")
+        axes.plot(made.time, made.force[0], color=BLACK, ls="--", label="true")
+        for side in np.percentile(made.force, (5, 95), axis=0):
+            axes.plot(made.time, side, color=BLACK, ls=":", lw=0.9)
+        axes.plot(made.time, made.measured[0], color=BLUE, label="measured")
+        axes.set(ylabel="force (N)", title=f"({letter}) {name}, {made.desired:g} N", xlim=(0, 6))
+        axes.set(ylim=(0, 1.4 * made.desired))
+    panels[0].legend(loc="lower right", ncols=2)
+    panels[-1].set(xlabel="time (s)")
+    return drawn
+
+
+@figure(
+    "2.I",
+    caption="Which friction coefficients agree with the printed grasps, Eq. (2.9). Bars: those "
+    "that the rounding of the desired force and of the estimated lift force allows, if the "
+    "measured force is the desired one; dot: from the numbers as they stand. Grey: where the "
+    "desired force just bears the printed weight; the coefficient must lie to its right. Green: "
+    "what all three bars have in common.",
+    alt="Three blue bars, one an object: the egg's from 0.93 to 1.5, the tofu's from 0.97 to 1.15, "
+    "the carrot's from 0.85 to 1.03. A narrow green strip from 0.97 to 1.03 crosses all. The grey "
+    "bar below each is, for tofu and carrot, left of the strip; the egg's spans it from 0.79 to "
+    "1.3.",
+    provenance=Provenance.PRINTED,
+    data=DATA[:1],
+)
+def figure_2_i() -> Figure:
+    """Draw the intervals of the friction coefficient."""
+    drawn = Figure(figsize=(WIDTH, 2.9))
+    axes = drawn.subplots()
+    if common := common_friction():
+        axes.axvspan(common.low, common.high, color=GREEN, alpha=0.3, lw=0, label="common")
+    for row, (name, given) in enumerate(printed_grasps().items()):
+        for shift, found, lift, colour, words in (
+            (-0.15, given.friction, given.lift, BLUE, "agrees with the lift force"),
+            (0.15, given.least_friction, given.weight, GREY, "bears the weight"),
+        ):
+            axes.plot(
+                (found.low, found.high), (row + shift,) * 2, color=colour, lw=5,
+                solid_capstyle="butt", label="" if row else words,
+            )  # fmt: skip
+            axes.plot(contact_force(float(lift), float(given.contact)), row + shift, "o",
+                      color=BLACK, ms=4)  # fmt: skip
+        axes.text(0.72, row, name, va="center", ha="right")
+    axes.set(xlabel="friction coefficient", yticks=[], xlim=(0.55, 1.55), ylim=(3.3, -0.5))
+    axes.legend(loc="lower right", ncols=1, fontsize=8.5)
+    return drawn
+
+
+@figure(
+    "2.J",
+    caption="Two readings of the command C of Figure 2.12, *simulated*. (a) The egg: as a change "
+    "of position; as the position itself, from the first touch and from 5 mm away, with half the "
+    "gain at which the egg would make it unstable. (b) The share of the force that is missing at "
+    "rest, as a position and from the first touch: on linear contacts (line), which loop gains "
+    "beyond the red line make unstable, and in the simulation, whose contacts stiffen with force.",
+    alt="Two panels. In the first, the change of position reaches the desired force; the position "
+    "stays at a quarter of it, and from five millimetres away it stays at zero. In the second, the "
+    "missing share falls from one to just above a third where a red line ends it; three marks lie "
+    "above the curve: the egg at 0.75, the carrot at 0.70, the tofu at 0.95.",
+    provenance=Provenance.SIMULATED,
+    data=DATA,
+)
+def figure_2_j() -> Figure:
+    """Draw what each reading of the command makes of a grasp."""
+    drawn = Figure(figsize=(WIDTH, 5.6))
+    upper, lower = drawn.subplots(2, 1)
+    gripper = GraspGripper()
+    upper.axhline(desired_force("egg"), color=ORANGE, label="desired")
+    for made, colour, dash, words in (
+        (study("egg"), BLUE, "-", "change"),
+        (position_study("egg"), GREEN, "--", "position, from touch"),
+        (position_study("egg", gripper.opening), BLACK, ":", "position, 5 mm open"),
+    ):
+        upper.plot(made.time, made.measured[0], color=colour, ls=dash, label=words)
+    upper.set(xlabel="time (s)", ylabel="force (N)", title="(a) egg, measured force", xlim=(0, 3))
+    upper.set(ylim=(-0.015, 0.5), xticks=np.arange(4))
+    upper.legend(loc="upper right", ncols=2)
+    limit = largest_loop_gain(gripper.lag)
+    gain = np.linspace(0, limit, 100)
+    lower.plot(gain, 1 / (1 + gain), color=GREEN, ls="--")
+    lower.axvline(limit, color=VERMILION, ls="-.", label="unstable beyond")
+    for name, mark in zip(OBJECTS, "osv", strict=True):
+        made = position_study(name)
+        wanted = desired_force(name)
+        gain_here = float(position_gains().kp) * squeezes()[name].stiffness(wanted)
+        missing = 1 - made.measured[:, -1].mean() / wanted
+        lower.plot(gain_here, missing, mark, color=BLUE, ls="none", label=name)
+    lower.set(xlabel=r"loop gain $k_p k$", ylabel="missing share", title="(b) as a position")
+    lower.set(ylim=(0, 1.05), xlim=(0, 3.2))
+    lower.legend(loc="lower right")
+    return drawn

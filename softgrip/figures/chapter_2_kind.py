@@ -1,0 +1,179 @@
+"""Figures of Chapter 2 on the kind of a contact; two of them draw a reader's own pad as well."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+from sklearn.base import clone
+from sklearn.metrics import confusion_matrix
+
+from softgrip.figures.exhibit import figure
+from softgrip.figures.style import BLUE, GREY, ORANGE, PRINTED, VERMILION, WIDTH
+from softgrip.provenance import Provenance
+from softgrip.rig.kind_study import OBJECTS, TRAINING, contacts, kept, kept_neighbours
+from softgrip.tactile.accuracy_interval import Accuracy
+from softgrip.tactile.contact_kind import NEIGHBOURS, bagged_neighbours, nearest_neighbours
+from softgrip.tactile.contacts import KINDS
+from softgrip.tactile.kind_evaluation import SplitScore
+
+PRINTED_SINGLE = {"training": 96.43, "testing": 96.83}
+"""Accuracies of Section 2.3 at k = 3, percent."""
+
+
+def draw_neighbours(scores: Mapping[int, Sequence[SplitScore]]) -> Figure:
+    """Draw training and testing accuracy over k: the mean over the splits, and their range.
+
+    Parameters
+    ----------
+    scores
+        By k, one for each split, such as from `kind_evaluation.split_score`.
+    """
+    drawn = Figure(figsize=(WIDTH, 3.2))
+    axes = drawn.subplots()
+    ks = sorted(scores)
+    for name, colour, dash in (("training", BLUE, "-"), ("testing", ORANGE, "--")):
+        part = "cross_validated" if name == "training" else "tested"
+        shares = 100 * np.array([[getattr(s, part).share for s in scores[k]] for k in ks])
+        axes.fill_between(ks, shares.min(axis=1), shares.max(axis=1), color=colour, alpha=0.2, lw=0)
+        axes.plot(ks, shares.mean(axis=1), dash, marker="o", color=colour, label=name)
+    axes.set(xlabel="k, neighbours that vote", ylabel="accuracy (%)", xticks=ks)
+    drawn.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return drawn
+
+
+def draw_confusions(truth: ArrayLike, told: Mapping[str, ArrayLike]) -> Figure:
+    """Draw a confusion matrix for each classifier, side by side; counts, and shares of a row.
+
+    Parameters
+    ----------
+    truth
+        Kinds of the contacts, shape (N,).
+    told
+        What each classifier said, by its name, shape (N,) each.
+    """
+    drawn = Figure(figsize=(WIDTH, 3.0))
+    every = drawn.subplots(1, len(told), sharey=True, squeeze=False)[0]
+    present = {str(kind) for each in (truth, *told.values()) for kind in np.asarray(each)}
+    kinds = [k for k in KINDS if k in present] + sorted(present - set(KINDS))
+    for axes, (name, said) in zip(every, told.items(), strict=True):
+        counts = confusion_matrix(truth, said, labels=kinds)
+        shares = counts / np.maximum(counts.sum(axis=1, keepdims=True), 1)
+        axes.imshow(shares, cmap="Blues", vmin=0, vmax=1.6)  # light enough for black text
+        for row, column in np.ndindex(counts.shape):
+            count, share = counts[row, column], shares[row, column]
+            # The point carries the count into the figure's table of numbers.
+            axes.scatter(column, row, s=0, label=f"{kinds[row]} told as {kinds[column]}: {count}")
+            axes.text(column, row, f"{count}\n{100 * share:.0f} %", ha="center", va="center",
+                      fontsize=9.5)  # fmt: skip
+        right = Accuracy(int(np.trace(counts)), int(counts.sum()))
+        axes.set(title=f"{name}\n{right.correct} of {right.total}, {100 * right.share:.2f} %",
+                 xlabel="told", xticks=range(len(kinds)), yticks=range(len(kinds)))  # fmt: skip
+        axes.set_xticklabels(kinds, fontsize=9.5)
+        axes.set_yticklabels(kinds, fontsize=9.5)
+        axes.grid(False)
+    every[0].set_ylabel("true")
+    return drawn
+
+
+@figure(
+    "2.7",
+    caption="Accuracy of the k-nearest neighbour classifier over k on the *simulated* pad: in "
+    "5-fold cross-validation on 504 of its 630 contacts (training) and on the other 126 (testing). "
+    "Lines: mean over 20 random splits; bands: their range. Squares: printed for k = 3.",
+    alt="Two falling curves over k from 1 to 10: training from 86 to 80 per cent, testing one or "
+    "two above it, with a band three times as wide. Both bands lie below the printed squares at 96 "
+    "and 97 per cent.",
+    provenance=Provenance.SIMULATED,
+    data=("tactile/kind_neighbours.csv",),
+)
+def figure_2_7() -> Figure:
+    """Draw training and testing accuracy against k."""
+    drawn = draw_neighbours(kept_neighbours())
+    axes = drawn.axes[0]
+    for (name, value), fill in zip(PRINTED_SINGLE.items(), (PRINTED, "none"), strict=True):
+        axes.plot([NEIGHBOURS], [value], "s", mec=PRINTED, mfc=fill,
+                  label=f"{name}, printed")  # fmt: skip
+    drawn.legends[0].remove()
+    drawn.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return drawn
+
+
+@figure(
+    "2.11",
+    caption="What the two classifiers say of 80 contacts of eight objects on the *simulated* pad, "
+    "trained on all 630 of the other log: counts, and shares of each true kind. The print has 74 "
+    "and 77 of 80 right (92.5 and 96.25 %).",
+    alt="Two matrices of three by three. In both all surfaces are told as such; points are told as "
+    "lines, and lines as points or surfaces, the single classifier being right in 66 cases and "
+    "the bagging one in 64.",
+    provenance=Provenance.SIMULATED,
+    data=(TRAINING, OBJECTS),
+)
+def figure_2_11() -> Figure:
+    """Draw the confusion matrices of the single and of the bagging classifier."""
+    felt, new = contacts(TRAINING), contacts(OBJECTS)
+    models = {"(a) single": nearest_neighbours(), "(b) bagging": bagged_neighbours()}
+    told = {
+        name: clone(model).fit(felt.responses, felt.kinds).predict(new.responses)
+        for name, model in models.items()
+    }
+    return draw_confusions(new.kinds, told)
+
+
+@figure(
+    "2.E",
+    caption="How many more of the 80 contacts the bagging classifier gets right than the single "
+    "one, over 200 seeds of its random draws, on the *simulated* pad: contacts drawn with "
+    "replacement, as usual, and without (the text does not say). The print has 3 more.",
+    alt="Bars from minus five to four. With replacement they lie about zero, without about one. "
+    "The printed gain of three is at their right end.",
+    provenance=Provenance.SIMULATED,
+    data=("tactile/kind_draws.csv",),
+)
+def figure_2_e() -> Figure:
+    """Draw the distribution of the gain by bagging."""
+    drawn = Figure(figsize=(WIDTH, 2.8))
+    axes = drawn.subplots()
+    found = kept("draws")
+    for name, label, colour, side in (
+        ("bagged", "with replacement", BLUE, -0.2),
+        ("bagged_without_replacement", "without", ORANGE, 0.2),
+    ):
+        gain, count = np.unique(found[name] - found["single"], return_counts=True)
+        axes.bar(gain + side, count, width=0.4, color=colour, label=label)
+    axes.axvline(3, color=PRINTED, ls="--", label="printed")
+    axes.axvline(0, color=GREY, lw=0.8)
+    axes.set(xlabel="bagging right, minus single right (of 80)", ylabel="seeds (of 200)")
+    axes.legend(loc="best")
+    return drawn
+
+
+@figure(
+    "2.F",
+    caption="Accuracy on each object of the *simulated* training log, single classifier: when "
+    "other contacts of the object were in the training (cross-validation at random), and when it "
+    "was never felt (all its contacts left out). Lines: 95 % intervals of the latter.",
+    alt="Twenty-one rows with two marks each, which mostly lie within a few per cent of each "
+    "other. Surfaces are at 90 to 100 per cent, points at 73 to 97, lines at 63 to 87.",
+    provenance=Provenance.SIMULATED,
+    data=("tactile/kind_objects.csv",),
+)
+def figure_2_f() -> Figure:
+    """Draw the accuracy on objects that were felt before and that were not."""
+    found = kept("objects")
+    drawn = Figure(figsize=(WIDTH, 1.2 + 0.24 * len(found)))
+    axes: Any = drawn.subplots()
+    place = np.arange(len(found))[::-1]
+    new = [Accuracy(*pair) for pair in zip(found["single_new"], found["contacts"], strict=True)]
+    ends = 100 * np.array([each.interval() for each in new])
+    axes.hlines(place, *ends.T, color=VERMILION, lw=1.0)
+    axes.plot([100 * each.share for each in new], place, "D", color=VERMILION, label="never felt")
+    axes.plot(100 * found["single_known"] / found["contacts"], place, "o", color=BLUE, mfc="none",
+              label="felt before")  # fmt: skip
+    axes.set_yticks(place, [f"{o} ({k})" for o, k in zip(found["object"], found["kind"],
+                                                         strict=True)])  # fmt: skip
+    axes.set(xlabel="accuracy (%)", ylabel="object", xlim=(-3, 103))
+    drawn.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=2)
+    return drawn

@@ -1,0 +1,41 @@
+"""What the sliders of Chapter 2 draw."""
+
+from functools import cache
+
+from matplotlib.figure import Figure
+
+from softgrip.figures.widgets_2_element import draw_element
+from softgrip.figures.widgets_2_force import draw_bandwidth
+from softgrip.figures.widgets_2_pad import draw_pad
+from softgrip.materials.arrays import Floats
+from softgrip.provenance import data_file
+from softgrip.rig.pad_logs import read_contacts
+from softgrip.tactile.contact_kind import bagged_neighbours
+from softgrip.tactile.pad_model_fast import FastKind
+
+__all__ = ["draw_bandwidth", "draw_element", "draw_touch"]
+
+
+@cache
+def _classifier() -> FastKind:
+    training = read_contacts(data_file("simulated/pad-training.csv").path)
+    return FastKind.from_fitted(bagged_neighbours().fit(training.responses, training.kinds))
+
+
+def _kind(responses: Floats) -> str:
+    return _classifier().predict(responses)
+
+
+def draw_touch(item: str, x: float, angle: float) -> Figure:
+    """Draw an object on the simulated pad, and what the bagging classifier says; see `draw_pad`.
+
+    Parameters
+    ----------
+    item
+        Name of an object of `pad_objects`.
+    x
+        Place of its middle along the pad, mm.
+    angle
+        Of its length, deg.
+    """
+    return draw_pad(item, x, angle, _kind)

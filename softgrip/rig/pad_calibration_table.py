@@ -1,0 +1,93 @@
+"""What is assumed of the simulated pad, and how it stands to what Chapter 2 prints.
+
+``python -m softgrip.rig.pad_calibration_table`` writes ``data/calibration/pad.csv``, as
+`calibration_table` does for the rig with one finger. Nothing printed is calibrated to.
+"""
+
+from pathlib import Path
+
+from scipy.optimize import brentq
+
+from softgrip.rig.calibration_entry import Entry, assumed, printed
+from softgrip.rig.calibration_table import write_entries
+from softgrip.rig.pad_parameters import PadParameters
+from softgrip.tactile.element import compliance
+from softgrip.tactile.element_resistance import CEILING, resistance
+from softgrip.units import DEG, MM
+
+FILE = "calibration/pad.csv"
+COMMAND = "python -m softgrip.rig.pad_calibration_table"
+NOISES = 3.0
+"""Change of a voltage that is taken as felt, in deviations of its noise."""
+
+
+def ceiling_force(pad: PadParameters) -> float:
+    """Return the force on an element at which its resistance reaches the printed ceiling, N."""
+    soft, height = compliance(pad.element, pad.young_modulus), pad.element.height
+    # Just below the ceiling: from there on the law is flat.
+    almost = CEILING * (1 - 1e-9)
+    return float(brentq(lambda force: resistance(soft * force, height) - almost, 0, 1))
+
+
+def least_force(pad: PadParameters) -> float:
+    """Return the force on an element that moves its voltage by three deviations of the noise, N.
+
+    A step of the converter, where it is larger, counts as the deviation.
+    """
+    soft, height = compliance(pad.element, pad.young_modulus), pad.element.height
+    step = max(pad.noise, pad.supply / pad.levels)
+    ohms = NOISES * step * pad.gain_resistor / pad.reference
+    rest = resistance(0.0, height)
+    return float(brentq(lambda force: resistance(soft * force, height) - rest - ohms, 0, 1))
+
+
+def entries() -> tuple[Entry, ...]:
+    """List what is assumed of the pad, and two printed numbers beside what it gives."""
+    pad = PadParameters()
+    hour = 3600.0
+    return (
+        printed("checked", "Section 2.2", "force that brings an element to its end (0.1 to 0.2)",
+                "0.2", "N", "", float("nan"), ceiling_force(pad)),
+        printed("checked", "Section 2.2", "least force that a pyramid feels", "0.01", "N", "",
+                float("nan"), least_force(pad)),
+        assumed("pitch of the elements in a row", "mm", "layout",
+                float(pad.layout.places[1, 0] - pad.layout.places[0, 0]),
+                float(pad.layout.places[1, 0] - pad.layout.places[0, 0]) / MM),
+        assumed("pitch of the rows", "mm", "layout",
+                float(pad.layout.places[0, 1] - pad.layout.places[3, 1]),
+                float(pad.layout.places[0, 1] - pad.layout.places[3, 1]) / MM),
+        assumed("width of a pyramid's top", "mm", "element.cut", pad.element.cut,
+                pad.element.cut * pad.element.width / MM),
+        assumed("thickness of the cover", "mm", "cover", pad.cover, pad.cover / MM),
+        assumed("side of the square that presses a pyramid", "mm", "spread", pad.spread,
+                2 * pad.spread / MM),
+        assumed("reference of the amplifier", "V", "reference", pad.reference, pad.reference),
+        assumed("resistor of the amplifier", "Ohm", "gain_resistor", pad.gain_resistor,
+                pad.gain_resistor),
+        assumed("spread of the resistance at rest", "%", "rest_spread", pad.rest_spread,
+                100 * pad.rest_spread),
+        assumed("spread of the gain", "%", "gain_spread", pad.gain_spread, 100 * pad.gain_spread),
+        assumed("spread of the stiffness", "%", "stiffness_spread", pad.stiffness_spread,
+                100 * pad.stiffness_spread),
+        assumed("spread of the height", "mm", "height_spread", pad.height_spread,
+                pad.height_spread / MM),
+        assumed("repeatability of the resistance change", "%", "repeatability", pad.repeatability,
+                100 * pad.repeatability),
+        assumed("noise of a voltage", "mV", "noise", pad.noise, 1e3 * pad.noise),
+        assumed("drift of the resistance at rest in an hour", "%", "drift", pad.drift,
+                100 * hour * pad.drift),
+        assumed("tilt of what is held", "deg", "tilt", pad.tilt, pad.tilt / DEG),
+        assumed("force that halves the resistance of the force layer", "N", "layer_force",
+                pad.layer_force, pad.layer_force),
+        assumed("gain of the force layer's amplifier", "", "layer_gain", pad.layer_gain,
+                pad.layer_gain),
+    )  # fmt: skip
+
+
+def write(path: Path | None = None) -> Path:
+    """Write the file and return its path."""
+    return write_entries(FILE, COMMAND, entries(), path)
+
+
+if __name__ == "__main__":
+    print(write())

@@ -1,0 +1,133 @@
+"""The simulated grasp of Section 2.4: gripper, object and force layer, as a plant of the loop."""
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from softgrip.control.loop import run_loop
+from softgrip.control.pid import PERIOD, Gains
+from softgrip.materials.arrays import Floats
+from softgrip.rig.chance import streams
+from softgrip.rig.force_layer import ForceLayer, layer_voltage, read_counts, volts
+from softgrip.rig.force_layer_study import to_force
+from softgrip.rig.pad_grasp_gripper import GraspGripper, Squeeze, servo_position
+from softgrip.tactile.force_control import Command, ForceController
+
+
+@cache
+def count_forces() -> Floats:
+    """Return the force that the regressor says for each count of the converter, N."""
+    layer = ForceLayer()
+    return to_force(volts(np.arange(layer.largest_count + 1), layer))
+
+
+class PadGrasp:
+    """A gripper that closes on an object, for a batch of runs; command m, measurement N.
+
+    Parameters
+    ----------
+    squeeze
+        How the force rises.
+    gripper
+        The gripper, open at position 0.
+    samples
+        Most measurements that will be taken.
+    runs, seed
+        Number of grasps, and of chance: what part of the force the layer feels in each, and noise.
+
+    Attributes
+    ----------
+    force
+        True contact forces after each measurement so far, N, a list of shape (runs,) each.
+    """
+
+    def __init__(
+        self, squeeze: Squeeze, gripper: GraspGripper, *, samples: int, runs: int, seed: int
+    ) -> None:
+        self._squeeze, self._gripper, self._layer = squeeze, gripper, ForceLayer()
+        chance = [streams(seed, run) for run in range(runs)]
+        drawn = np.array([own.standard_normal() for own, _ in chance])
+        self._felt_part = np.exp(self._layer.object_seating * drawn)
+        self._noise = iter(np.stack([noise.standard_normal(samples) for _, noise in chance], -1))
+        self._position = np.zeros(runs)
+        self._lagged = np.zeros((len(self._layer.lag), runs))
+        self.force: list[Floats] = []
+
+    def advance(self, command: ArrayLike, duration: float) -> Floats:
+        """Hold a position, m, for a time, s, and return the force that the pad then says, N."""
+        step, layer = self._gripper.resolution, self._layer
+        before = self._squeeze.at(self._position - self._gripper.opening)
+        target = np.rint(np.asarray(command) / step) * step
+        self._position = servo_position(self._position, target, duration, self._gripper)
+        force = self._squeeze.at(self._position - self._gripper.opening)
+        # The lags of `force_layer.felt_force`, sample by sample.
+        kept = np.exp(-duration / np.array(layer.lag))[:, None]
+        self._lagged = kept * self._lagged + (1 - kept) * before
+        felt = (1 - sum(layer.memory)) * force + np.array(layer.memory) @ self._lagged
+        voltage = layer_voltage(self._felt_part * felt, 0.0, layer)
+        self.force.append(force)
+        return count_forces()[read_counts(voltage, next(self._noise), layer)]
+
+
+@dataclass(frozen=True, eq=False)
+class GraspRecord:
+    """What happened in a batch of grasps.
+
+    Attributes
+    ----------
+    time
+        s, shape (samples,).
+    desired
+        Contact force, N.
+    measured, force
+        What the pad says and what the force is, N, shape (runs, samples).
+    """
+
+    time: Floats
+    desired: float
+    measured: Floats
+    force: Floats
+
+
+def grasp(
+    squeeze: Squeeze,
+    gains: Gains,
+    desired: float,
+    *,
+    command: Command = "change",
+    gripper: GraspGripper | None = None,
+    duration: float = 10.0,
+    runs: int = 1,
+    seed: int = 0,
+) -> GraspRecord:
+    """Close the gripper on an object under force control.
+
+    Parameters
+    ----------
+    squeeze
+        Of the object.
+    gains, command
+        As of `ForceController`.
+    desired
+        Contact force, N.
+    gripper
+        None for `GraspGripper`.
+    duration
+        s.
+    runs, seed
+        As of `PadGrasp`.
+    """
+    gripper = gripper or GraspGripper()
+    samples = round(duration / PERIOD) + 2
+    plant = PadGrasp(squeeze, gripper, samples=samples, runs=runs, seed=seed)
+    result = run_loop(
+        plant,
+        ForceController(gains, command, speed=gripper.speed),
+        desired,
+        duration=duration,
+        delay_samples=gripper.delay,
+    )
+    true = np.stack(plant.force[: result.time.size], axis=-1)
+    return GraspRecord(result.time, desired, result.measured, true)

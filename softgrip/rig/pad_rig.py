@@ -1,0 +1,125 @@
+"""The simulated pad: from the forces on its elements to the counts of its converter."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from softgrip.materials.arrays import Floats
+from softgrip.rig.chance import streams
+from softgrip.rig.pad_contact import bed_points, element_forces, spring_stiffness
+from softgrip.rig.pad_objects import PadObject
+from softgrip.rig.pad_parameters import PadParameters
+from softgrip.rig.pad_surface import Pose, gap
+from softgrip.rig.sensors import Counts
+from softgrip.tactile.element import compliance
+from softgrip.tactile.element_resistance import AT_REST, resistance
+
+
+@dataclass(frozen=True, eq=False)
+class Pad:
+    """One pad, with what sets its elements apart.
+
+    Attributes
+    ----------
+    parameters
+        Of all pads.
+    at_rest
+        Resistance at rest, Ohm, shape (elements,).
+    gain
+        Multiple of the relative change of the resistance, shape (elements,).
+    compliance
+        m/N, shape (elements,).
+    height
+        How far each stands above the others, m, shape (elements,).
+    drift
+        Relative change of the resistance at rest, 1/s, shape (elements,).
+    """
+
+    parameters: PadParameters
+    at_rest: Floats
+    gain: Floats
+    compliance: Floats
+    height: Floats
+    drift: Floats
+
+
+def make_pad(parameters: PadParameters, seed: int | None = None) -> Pad:
+    """Return a pad: one drawn by a seed, or without one the ideal pad, all elements alike."""
+    n = parameters.layout.elements
+    drawn = np.zeros((5, n)) if seed is None else streams(seed, 0)[0].standard_normal((5, n))
+    soft = compliance(parameters.element, parameters.young_modulus)
+    return Pad(
+        parameters,
+        at_rest=AT_REST * np.exp(parameters.rest_spread * drawn[0]),
+        gain=np.exp(parameters.gain_spread * drawn[1]),
+        compliance=soft * np.exp(parameters.stiffness_spread * drawn[2]),
+        height=parameters.height_spread * drawn[3],
+        drift=parameters.drift * drawn[4],
+    )
+
+
+def press(
+    pad: Pad, item: PadObject, pose: Pose, force: float, chance: np.random.Generator | None = None
+) -> Floats:
+    """Return the forces on the elements, N, shape (elements,), when an object is pressed.
+
+    Parameters
+    ----------
+    pad
+        The pad.
+    item, pose
+        What is pressed, and how it is laid.
+    force
+        Contact force, N.
+    chance
+        Gives its rough surface; without it the object is smooth.
+
+    Raises
+    ------
+    InvalidInputError
+        If the object lies beside all elements.
+    """
+    gaps = gap(item, pose, bed_points(pad.parameters), chance) - pad.height[:, None]
+    k = np.array([spring_stiffness(pad.parameters, item.softness)])
+    shared: Floats = element_forces(gaps[None], k, pad.compliance, np.array([force]))[0]
+    return shared
+
+
+def voltages(
+    pad: Pad, forces: Floats, time: float = 0.0, chance: np.random.Generator | None = None
+) -> Floats:
+    """Return the voltages of the elements and of the force layer, V, shape (elements + 1,).
+
+    Parameters
+    ----------
+    pad
+        The pad.
+    forces
+        On its elements, N, shape (elements,).
+    time
+        Since the start of the log, s; the resistances drift with it.
+    chance
+        Gives noise and repeatability; without it there is none.
+    """
+    own, n = pad.parameters, pad.parameters.layout.elements
+    drawn = np.zeros(2 * n + 1) if chance is None else chance.standard_normal(2 * n + 1)
+    nominal = resistance(pad.compliance * forces, own.element.height) / AT_REST
+    change = pad.gain * (1 + own.repeatability * drawn[:n]) * (nominal - 1)
+    amplified = own.reference * (
+        1 + pad.at_rest * (1 + change + pad.drift * time) / own.gain_resistor
+    )
+    # Half a Wheatstone bridge whose Velostat has 1 / (1 + x) of its resistance at rest.
+    x = forces.sum() / own.layer_force
+    layer = own.layer_gain * own.supply * x / (2 * (2 + x))
+    return np.append(amplified, layer) + own.noise * drawn[n:]
+
+
+def convert(volts: Floats, parameters: PadParameters) -> Counts:
+    """Return the counts of the converter for voltages in V, cut to its range."""
+    counts = np.rint(volts * (parameters.levels / parameters.supply))
+    return np.clip(counts, 0, parameters.levels - 1).astype(np.int64)
+
+
+def to_volts(counts: Counts, parameters: PadParameters) -> Floats:
+    """Return the voltages that counts stand for, V."""
+    return counts.astype(np.float64) * (parameters.supply / parameters.levels)

@@ -1,0 +1,78 @@
+"""Where the pad is touched: the centroid of its responses.
+
+Section 2.3 says that places are estimated, not how, nor how well.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from softgrip.materials.arrays import Floats
+from softgrip.tactile.contacts import check_responses
+from softgrip.tactile.pad_layout import PadLayout
+
+FELT = 0.05
+"""Responses up to here count as none: some ten steps of a converter of 10 bits, so that an hour
+of drift is not taken for a touch."""
+
+
+class Moments(NamedTuple):
+    """Moments of the responses that are felt.
+
+    Attributes
+    ----------
+    elements
+        How many are felt, shape (...).
+    middle
+        Centroid, m, shape (..., 2); NaN if none is felt.
+    spread
+        Second moments about it, m^2, shape (..., 2, 2).
+    """
+
+    elements: Floats
+    middle: Floats
+    spread: Floats
+
+
+def moments(responses: ArrayLike, layout: PadLayout) -> Moments:
+    """Return the moments of responses; arguments as for `place`."""
+    found = check_responses(responses, layout.elements)
+    weight = np.where(found > FELT, found, 0.0)
+    total = weight.sum(axis=-1, keepdims=True)
+    share = np.divide(weight, total, out=np.full_like(weight, np.nan), where=total > 0)
+    middle = share @ layout.places
+    away = layout.places - middle[..., None, :]
+    spread = np.einsum("...k,...ki,...kj->...ij", share, away, away)
+    return Moments((weight > 0).sum(axis=-1), middle, spread)
+
+
+def place(responses: ArrayLike, layout: PadLayout) -> Floats:
+    """Return where the pad is touched, m from its middle.
+
+    Parameters
+    ----------
+    responses
+        Normalised, 0 to 1, shape (..., elements); those up to `FELT` count as none.
+    layout
+        Of the pad.
+
+    Returns
+    -------
+    Floats
+        Shape (..., 2), within the hull of the elements; NaN where nothing is felt.
+
+    Raises
+    ------
+    InvalidInputError
+        If the number of channels is not the layout's, or a response is not between 0 and 1.
+
+    Examples
+    --------
+    Twice as strong on the right one of two elements that are 11 mm apart:
+
+    >>> from softgrip.tactile.pad_layout import THREE_TWO_THREE
+    >>> place([0, 0, 0, 0.2, 0.4, 0, 0, 0], THREE_TWO_THREE).round(5).tolist()
+    [0.00183, 0.0]
+    """
+    return moments(responses, layout).middle

@@ -1,0 +1,149 @@
+"""What finite elements give for elements, kept: ``python -m softgrip.tactile.element_results``.
+
+Compliances hold for E = 0.125 MPa and nu = 0.49; for another E they are divided by it.
+"""
+
+import csv
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from softgrip.errors import UnknownNameError
+from softgrip.provenance import data_file, data_folder
+from softgrip.tactile.element import SHAPES, STATED_MODULUS, Element, Shape
+from softgrip.tactile.element_fem import TopCompliance, solve
+from softgrip.tactile.element_table import ASSUMED
+
+COLUMNS = (
+    "shape",
+    "width [m]",
+    "height [m]",
+    "cut",
+    "divisions",
+    "unknowns",
+    "mean [m/N]",
+    "largest [m/N]",
+    "plate [m/N]",
+)
+STATED_CYLINDER = Element("cylinder")
+"""As wide as Section 2.2 says, 6 mm."""
+
+CUTS = (0.05, 0.06, 0.0854, 0.12, 0.16, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
+_ROUND, _SQUARE = (4, 8, 16, 32, 64), (2, 4, 6, 8, 10)
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A solved element: what it is, the mesh's divisions and unknowns, and how its top gives."""
+
+    element: Element
+    divisions: int
+    unknowns: int
+    top: TopCompliance
+
+
+def _finer(element: Element) -> Sequence[tuple[Element, int]]:
+    return [(element, n) for n in (_SQUARE if element.shape == "pyramid" else _ROUND)]
+
+
+def _sweep(shape: Shape) -> Sequence[tuple[Element, int]]:
+    if shape == "cylinder":
+        return [(STATED_CYLINDER, 32)]
+    return [(Element(shape, cut=cut), 6 if shape == "pyramid" else 32) for cut in CUTS]
+
+
+TABLES: Mapping[str, Sequence[tuple[Element, int]]] = MappingProxyType(
+    {
+        "convergence": [
+            case for element in (*ASSUMED.values(), STATED_CYLINDER) for case in _finer(element)
+        ],
+        "cut": [case for shape in SHAPES for case in _sweep(shape)],
+    }
+)
+"""The kept files: elements and divisions of their rows."""
+
+
+def read(table: str) -> list[Kept]:
+    """Read ``data/tactile/element_<table>.csv``.
+
+    Parameters
+    ----------
+    table
+        "convergence", or "cut": elements 6 mm wide and 3 mm high with tops of all widths.
+
+    Raises
+    ------
+    UnknownNameError
+        If it is none of these.
+    """
+    if table not in TABLES:
+        raise UnknownNameError("table", table, list(TABLES))
+    path = data_file(f"tactile/element_{table}.csv").path
+    with path.open(encoding="utf-8", newline="") as stream:
+        rows = csv.reader(line for line in stream if not line.startswith("#"))
+        next(rows)
+        return [
+            Kept(
+                Element(shape, float(width), float(height), float(cut)),  # type: ignore[arg-type]
+                int(divisions),
+                int(unknowns),
+                TopCompliance(*map(float, found)),
+            )
+            for shape, width, height, cut, divisions, unknowns, *found in rows
+        ]
+
+
+def finest(element: Element) -> Kept:
+    """Return the kept result of an element on its finest mesh.
+
+    Raises
+    ------
+    UnknownNameError
+        If it is none of `ASSUMED` and not `STATED_CYLINDER`.
+    """
+    rows = [row for row in read("convergence") if _same(row.element, element)]
+    if not rows:
+        raise UnknownNameError("kept element", repr(element), [repr(e) for e in ASSUMED.values()])
+    return max(rows, key=lambda row: row.divisions)
+
+
+def fem_deformation(
+    element: Element, force: float, young_modulus: float = STATED_MODULUS, of: str = "largest"
+) -> float:
+    """Return the displacement of the top on the finest mesh, m: "mean", "largest" or "plate".
+
+    The other parameters are as in `element.shortening`; raises UnknownNameError as `finest`.
+    """
+    return float(getattr(finest(element).top, of)) * force * STATED_MODULUS / young_modulus
+
+
+def _same(kept: Element, asked: Element) -> bool:
+    return kept.shape == asked.shape and (kept.width, round(kept.cut, 4)) == (
+        asked.width,
+        round(asked.cut, 4),
+    )
+
+
+def write() -> Iterator[Kept]:
+    """Compute all rows and keep them; yields each one when it is done (2 minutes in all)."""
+    for table, cases in TABLES.items():
+        lines = [
+            "# provenance: simulated",
+            "# source: python -m softgrip.tactile.element_results",
+            ",".join(COLUMNS),
+        ]
+        for element, divisions in cases:
+            found = solve(element, divisions)
+            kept = Kept(element, divisions, found.displacement.size, found.top)
+            numbers = (element.width, element.height, element.cut)
+            tops = (kept.top.mean, kept.top.largest, kept.top.plate)
+            cells = (*numbers, divisions, kept.unknowns, *(f"{top:.6g}" for top in tops))
+            lines.append(",".join(map(str, (element.shape, *cells))))
+            yield kept
+        path = data_folder() / "tactile" / f"element_{table}.csv"
+        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    for result in write():
+        print(result, flush=True)

@@ -1,0 +1,94 @@
+"""The least force that an element feels: where its resistance has changed by what can be read."""
+
+from scipy.optimize import brentq
+
+from softgrip.errors import InvalidInputError
+from softgrip.materials.arrays import Value, check_positive
+from softgrip.tactile.element import STATED_MODULUS, Element, Shape, compliance, shortening
+from softgrip.tactile.element_resistance import AT_REST, CEILING, resistance
+
+
+def resistance_under(
+    element: Element, force: Value, young_modulus: float = STATED_MODULUS
+) -> Value:
+    """Return the resistance of an element under a force (N, float or array), Ohm."""
+    return resistance(shortening(element, force, young_modulus), element.height)
+
+
+def least_force(
+    element: Element, resistance_change: float, young_modulus: float = STATED_MODULUS
+) -> float:
+    """Return the force at which the resistance has risen by a change, N.
+
+    The inverse of `resistance_under`. The ratio of two elements' forces depends neither on the
+    modulus nor, while it is small, on the change.
+
+    Parameters
+    ----------
+    element
+        With a flat top, or with a sharp one, which feels any force: 0.
+    resistance_change
+        Ohm, > 0, up to the range of 0.5 MOhm.
+    young_modulus
+        E, Pa.
+
+    Raises
+    ------
+    InvalidInputError
+        If one of these does not hold.
+    """
+    check_positive(resistance_change=resistance_change)
+    if resistance_change > CEILING - AT_REST:
+        raise InvalidInputError(
+            "resistance_change", expected=f"up to {CEILING - AT_REST:g} Ohm", got=resistance_change
+        )
+    part = resistance_change / (AT_REST + resistance_change)
+    return part * element.height / compliance(element, young_modulus)
+
+
+def relative_compliance(shape: Shape, cut: float, equal: str = "width") -> float:
+    """Return the compliance by Eq. (2.1) as a part of a cylinder's of equal height and modulus.
+
+    Parameters
+    ----------
+    shape, cut
+        As in `Element`; cut above 0.
+    equal
+        What the element shares with the cylinder: "width" of the base, "area" of the base, or
+        "volume".
+
+    Raises
+    ------
+    InvalidInputError
+        If one of these is not as said.
+
+    Examples
+    --------
+    >>> round(relative_compliance("pyramid", 0.5, equal="area"), 9)
+    2.0
+    """
+    found, cylinder = Element(shape, cut=1.0 if shape == "cylinder" else cut), Element("cylinder")
+    shares = {
+        "width": 1.0,
+        "area": found.base_area / cylinder.base_area,
+        "volume": found.volume / cylinder.volume,
+    }
+    if equal not in shares:
+        raise InvalidInputError("equal", expected=f"one of {list(shares)}", got=equal)
+    # A body made wider by the factor s has s**2 the area and volume, and 1 / s**2 the compliance.
+    return shares[equal] * compliance(found) / compliance(cylinder)
+
+
+def equal_cut() -> float:
+    """Return the cut at which pyramid and hemisphere of one width give way alike by Eq. (2.1).
+
+    Flatter tops than this make the hemisphere the softer one; a round base has the smaller area.
+
+    >>> round(equal_cut(), 3)
+    0.537
+    """
+
+    def excess(cut: float) -> float:
+        return relative_compliance("pyramid", cut) - relative_compliance("hemisphere", cut)
+
+    return float(brentq(excess, 0.1, 0.9))

@@ -1,0 +1,147 @@
+"""Which friction coefficients agree with printed pairs of contact force and lift force.
+
+Section 2.4 prints no coefficient, but forces that Eq. (2.8) and (2.9) join by one. Each is rounded,
+so that a pair leaves an interval of coefficients; a single rubber must lie in all of them.
+"""
+
+import csv
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from decimal import Decimal, InvalidOperation
+from functools import cache
+from types import MappingProxyType
+from typing import Self
+
+from softgrip.errors import InvalidInputError
+from softgrip.provenance import data_file
+
+PRINTED_GRASPS = "tactile/grasp_printed.csv"
+
+
+@dataclass(frozen=True)
+class Interval:
+    """The numbers from `low` to `high`, ends included; 0 <= low <= high."""
+
+    low: float
+    high: float
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.low <= self.high:
+            raise InvalidInputError("interval", expected="0 <= low <= high", got=self)
+
+    @classmethod
+    def of_print(cls, text: str) -> Self:
+        """Return the numbers >= 0 that are printed so when rounded to the same place.
+
+        Raises
+        ------
+        InvalidInputError
+            If the text is no number >= 0.
+
+        Examples
+        --------
+        >>> Interval.of_print("0.09"), Interval.of_print("0.3")
+        (Interval(low=0.085, high=0.095), Interval(low=0.25, high=0.35))
+        """
+        try:
+            number = Decimal(text)
+            half = Decimal(5).scaleb(int(number.as_tuple().exponent) - 1)
+        except (InvalidOperation, ValueError):
+            raise InvalidInputError("text", expected="a printed number", got=text) from None
+        if number < 0:
+            raise InvalidInputError("text", expected="a number >= 0", got=text)
+        # In decimals, as 0.3 - 0.05 in binary is not the float nearest to 0.25.
+        return cls(float(max(number - half, Decimal(0))), float(number + half))
+
+    @property
+    def middle(self) -> float:
+        """Half way between the ends."""
+        return (self.low + self.high) / 2
+
+
+def friction_interval(contact_force: Interval, lift_force: Interval) -> Interval:
+    """Return the coefficients for which Eq. (2.8) joins two rounded forces.
+
+    The same function gives, for a weight in the place of the lift force, the coefficient that the
+    friction must exceed for the weight to be held.
+
+    Parameters
+    ----------
+    contact_force, lift_force
+        N; the contact force lies wholly above zero.
+
+    Raises
+    ------
+    InvalidInputError
+        If the contact force may be zero.
+
+    Examples
+    --------
+    >>> found = friction_interval(Interval.of_print("0.09"), Interval.of_print("0.19"))
+    >>> round(found.low, 3), round(found.high, 3)  # 0.185 / 0.19, 0.195 / 0.17
+    (0.974, 1.147)
+    """
+    if not contact_force.low > 0:
+        raise InvalidInputError("contact_force", expected="N, > 0", got=contact_force)
+    return Interval(
+        lift_force.low / (2 * contact_force.high), lift_force.high / (2 * contact_force.low)
+    )
+
+
+def intersection(intervals: Iterable[Interval]) -> Interval | None:
+    """Return what intervals have in common, or None; there must be at least one."""
+    given = [*intervals]
+    if not given:
+        raise InvalidInputError("intervals", expected="at least one", got=given)
+    low, high = max(i.low for i in given), min(i.high for i in given)
+    return Interval(low, high) if low <= high else None
+
+
+@dataclass(frozen=True)
+class PrintedGrasp:
+    """What Section 2.4 prints of a grasp, as strings in N.
+
+    Attributes
+    ----------
+    contact
+        Desired contact force.
+    lift
+        Estimated lift force.
+    weight
+        Of the object.
+    """
+
+    contact: str
+    lift: str
+    weight: str
+
+    @property
+    def friction(self) -> Interval:
+        """The coefficients that agree, if the measured force at rest is the desired one."""
+        return friction_interval(Interval.of_print(self.contact), Interval.of_print(self.lift))
+
+    @property
+    def least_friction(self) -> Interval:
+        """Where the coefficient lies at which the desired force just bears the weight."""
+        return friction_interval(Interval.of_print(self.contact), Interval.of_print(self.weight))
+
+
+@cache
+def printed_grasps() -> Mapping[str, PrintedGrasp]:
+    """Return the three grasps of Section 2.4 by object, in the order of the text."""
+    with data_file(PRINTED_GRASPS).path.open(encoding="utf-8", newline="") as lines:
+        rows = [*csv.DictReader(line for line in lines if not line.startswith("#"))]
+    return MappingProxyType(
+        {
+            row["object"]: PrintedGrasp(
+                row["contact force [N]"], row["lift force [N]"], row["weight [N]"]
+            )
+            for row in rows
+        }
+    )
+
+
+@cache
+def common_friction() -> Interval | None:
+    """Return the coefficients that agree with all three printed grasps, or None."""
+    return intersection(grasp.friction for grasp in printed_grasps().values())

@@ -1,0 +1,144 @@
+"""How often a classifier of contact kinds is right: on contacts, and on objects, it never felt.
+
+Most functions return which contacts it gets right, one boolean each, so that two classifiers can
+be compared contact by contact.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from sklearn.base import clone
+from sklearn.model_selection import (
+    GroupKFold,
+    StratifiedKFold,
+    cross_val_predict,
+    train_test_split,
+)
+
+from softgrip.errors import InvalidInputError
+from softgrip.tactile.accuracy_interval import Accuracy
+
+Right = NDArray[np.bool_]
+FOLDS = 5
+TEST_SHARE = 0.2
+
+
+def accuracy(right: Right) -> Accuracy:
+    """Count the contacts that are classified rightly."""
+    return Accuracy(int(right.sum()), right.size)
+
+
+def train_and_test(
+    kinds: ArrayLike, *, seed: int, test: float = TEST_SHARE
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Split contacts at random, with the kinds' shares kept: indices to train and to test on.
+
+    Examples
+    --------
+    >>> train, test = train_and_test(["point", "line", "surface"] * 210, seed=0)
+    >>> train.size, test.size
+    (504, 126)
+    """
+    labels = np.asarray(kinds)
+    train, tested = train_test_split(
+        np.arange(labels.size), test_size=test, random_state=seed, stratify=labels
+    )
+    return train, tested
+
+
+def cross_validated(
+    model: Any, responses: ArrayLike, kinds: ArrayLike, *, seed: int, folds: int = FOLDS
+) -> Right:
+    """Tell which contacts are right when each fold is left out in turn, at random.
+
+    Parameters
+    ----------
+    model
+        A classifier of scikit-learn; a copy is fitted.
+    responses
+        Shape (N, elements).
+    kinds
+        Shape (N,).
+    seed
+        Of the folds.
+    folds
+        Their number, >= 2.
+    """
+    labels = np.asarray(kinds)
+    parts = StratifiedKFold(folds, shuffle=True, random_state=seed)
+    return np.asarray(cross_val_predict(model, responses, labels, cv=parts) == labels)
+
+
+def cross_validated_by_object(
+    model: Any, responses: ArrayLike, kinds: ArrayLike, objects: ArrayLike
+) -> Right:
+    """Tell which contacts are right when each *object* is left out in turn.
+
+    Parameters
+    ----------
+    model, responses, kinds
+        As in `cross_validated`.
+    objects
+        What touched the pad, shape (N,); at least two objects.
+
+    Raises
+    ------
+    InvalidInputError
+        If all contacts are of one object.
+    """
+    labels, groups = np.asarray(kinds), np.asarray(objects)
+    count = np.unique(groups).size
+    if count < 2:
+        raise InvalidInputError("objects", expected="at least two objects", got=count)
+    parts = GroupKFold(count)
+    found = cross_val_predict(model, responses, labels, groups=groups, cv=parts)
+    return np.asarray(found == labels)
+
+
+def right_on_new(
+    model: Any,
+    responses: ArrayLike,
+    kinds: ArrayLike,
+    new_responses: ArrayLike,
+    new_kinds: ArrayLike,
+) -> Right:
+    """Tell which new contacts are right after training on the others."""
+    fitted = clone(model).fit(np.asarray(responses), np.asarray(kinds))
+    return np.asarray(fitted.predict(np.asarray(new_responses)) == np.asarray(new_kinds))
+
+
+@dataclass(frozen=True)
+class SplitScore:
+    """What Section 2.3 reports of a classifier, from one split.
+
+    Attributes
+    ----------
+    cross_validated
+        On the 80 % that it is trained on: the text's training accuracy. A contact is never among
+        those that it is compared with.
+    tested
+        On the other 20 %.
+    """
+
+    cross_validated: Accuracy
+    tested: Accuracy
+
+
+def split_score(model: Any, responses: ArrayLike, kinds: ArrayLike, *, seed: int) -> SplitScore:
+    """Split contacts in two, cross-validate on the larger part, test on the other.
+
+    Parameters
+    ----------
+    model, responses, kinds
+        As in `cross_validated`.
+    seed
+        Of the split and of the folds.
+    """
+    x, y = np.asarray(responses), np.asarray(kinds)
+    train, test = train_and_test(y, seed=seed)
+    return SplitScore(
+        accuracy(cross_validated(model, x[train], y[train], seed=seed)),
+        accuracy(right_on_new(model, x[train], y[train], x[test], y[test])),
+    )
