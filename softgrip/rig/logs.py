@@ -111,8 +111,10 @@ class LogWriter:
     def close(self) -> None:
         """Bring all rows to the disk and close the file."""
         if not self._file.closed:
-            self._sync()
-            self._file.close()
+            try:
+                self._sync()
+            finally:
+                self._file.close()
 
     def __enter__(self) -> Self:
         return self
