@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
 .DEFAULT_GOAL := help
-.PHONY: help book test lint lab figures ledger accept bench picture lock clean
+.PHONY: help book test lint lab figures ledger accept bench rig-test picture lock clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z][a-z%-]*:.*## ' $(MAKEFILE_LIST) | sort \
@@ -66,6 +66,11 @@ accept: $(READY)  ## make today's verdicts the expected ones (look at the diff)
 
 bench: $(READY)  ## measure the speed of simulation and control: book/_build/bench.json
 	@$(BIN)/python -m tests.bench
+
+rig-test: $(READY)  ## run the rig's tests on a board: make rig-test PORT=/dev/ttyACM0 (the motor turns)
+	@test -n "$(PORT)" || { echo "make rig-test PORT=/dev/ttyACM0"; exit 2; }
+	@SOFTGRIP_RIG_PORT=$(PORT) $(BIN)/python -m pytest tests/rig/test_conformance.py \
+	  -k "not simulated and not replay and not stub and not emulated"
 
 picture: book  ## take the picture of the README from the built book (needs Chromium)
 	@$(BIN)/python -m softgrip.book.picture

@@ -5,6 +5,7 @@ from pathlib import Path
 from time import perf_counter
 
 from tests.bench import (
+    board,
     controller,
     design,
     elastica,
@@ -28,6 +29,7 @@ SUBJECTS = (
     grippers,
     kernel_regression,
     pad_reading,
+    board,
 )
 
 

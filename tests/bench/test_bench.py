@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from tests.bench import (
+    board,
     controller,
     design,
     elastica,
@@ -31,6 +32,7 @@ SMALL = {
     design: {"starts": 2, "rivals": ("SLSQP",)},
     elastica: {"elements": (), "runs": 3, "repetitions": 1},
     kernel_regression: {"queries": 500, "other": 20, "repetitions": 1, "plain": 50},
+    board: {"seconds": 0.5, "count": 5, "stops": 2},
     pad_reading: {"count": 50, "plain": 5, "repetitions": 1},
     grippers: {"pairs": 4, "plain_pairs": 1, "growth": (2, 4, 8), "repetitions": 1},
 }

@@ -1,0 +1,46 @@
+"""``python -m softgrip.rig``: check a rig, find a board, or judge a log."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from typing import get_args
+
+from softgrip.errors import SoftgripError
+from softgrip.rig.acceptance import Experiment, judge, report
+from softgrip.rig.check import run_check
+from softgrip.rig.connect import connect
+from softgrip.rig.find_board import candidates
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command and return its exit code."""
+    parser = argparse.ArgumentParser(prog="python -m softgrip.rig", description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True)
+    one = commands.add_parser("check", help="diagnose a rig; nothing moves")
+    one.add_argument("--port", help="a port, a URL, simulated, replay:PATH; none: look for it")
+    one.add_argument("--fingers", type=int, default=1)
+    one.add_argument("--calibration", help="file of the board's calibration")
+    commands.add_parser("find", help="list the ports that may be a board")
+    one = commands.add_parser("accept", help="judge the log of a step against the printed numbers")
+    one.add_argument("log")
+    one.add_argument("--experiment", choices=get_args(Experiment), required=True)
+    asked = parser.parse_args(arguments)
+    try:
+        if asked.command == "check":
+            return run_check(
+                lambda: connect(asked.port, fingers=asked.fingers, calibration=asked.calibration)
+            )
+        if asked.command == "find":
+            seen = candidates()
+            print("\n".join(map(str, seen)) or "no USB port of a known maker")
+            return int(not any(candidate.answered for candidate in seen))
+        bands = judge(asked.log, asked.experiment)
+        print(report(bands))
+        return int(not all(band.passed for band in bands))
+    except (SoftgripError, OSError) as error:
+        print(error, file=sys.stderr)
+        return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,173 @@
+"""One interface over what can be driven: a simulated rig, a replay, an emulated board, a board."""
+
+from dataclasses import replace
+from types import TracebackType
+from typing import Protocol, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from softgrip.errors import InvalidInputError
+from softgrip.materials.arrays import Floats
+from softgrip.rig.board_errors import CommandRefusedError
+from softgrip.rig.log_schema import LogHeader
+from softgrip.rig.sensors import Measurement
+
+
+class Connection(Protocol):
+    """A rig that is sampled: a context manager that stops the pump on its way out.
+
+    A measurement has a pressure of shape (1,) and angles of shape (fingers, 1), as those of a
+    simulated gripper of one run, so that controllers and loops need not know what they drive.
+    """
+
+    @property
+    def period(self) -> float:
+        """Sampling period, s."""
+        ...
+
+    @property
+    def fingers(self) -> int:
+        """Number of fingers with a flex sensor."""
+        ...
+
+    def measure(self) -> Measurement:
+        """Return what the sensors say now."""
+        ...
+
+    def advance(self, command: ArrayLike) -> Measurement:
+        """Hold a motor speed for one period and return the measurement at its end.
+
+        Parameters
+        ----------
+        command
+            rad/s, positive into the syringe, one number. A command that would go beyond a limit of
+            pressure or travel is held back, and an event says so.
+
+        Raises
+        ------
+        CommandRefusedError
+            After an emergency stop, and for a push before the plunger's place is known.
+        """
+        ...
+
+    def take_event(self) -> str:
+        """Return words on what happened since the last call, empty if nothing."""
+        ...
+
+    def stop(self) -> None:
+        """Bring the motor to rest."""
+        ...
+
+    def emergency_stop(self) -> None:
+        """Stop at once, and refuse to move until `clear`."""
+        ...
+
+    def clear(self) -> None:
+        """Take an emergency stop back."""
+        ...
+
+    def home(self) -> None:
+        """Draw the plunger out to its end, from where its travel counts."""
+        ...
+
+    def reconnect(self, within: float) -> None:
+        """Find a line that was lost again, for at most some seconds."""
+        ...
+
+    def header(self) -> LogHeader:
+        """Return what a log says of this rig."""
+        ...
+
+    def __enter__(self) -> Self: ...
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None: ...
+
+
+class ConnectionPlant:
+    """A connection of one finger as `control.loop.run_loop` drives it: a speed in, an angle out."""
+
+    def __init__(self, connection: Connection) -> None:
+        self.connection = connection
+
+    def advance(self, command: ArrayLike, duration: float) -> Floats:
+        """Hold a motor speed [rad/s] for one period, or measure if the duration is 0; rad, (1,)."""
+        link = self.connection
+        if duration not in (0, link.period):
+            raise InvalidInputError("duration", expected=f"0 or {link.period} s", got=duration)
+        found = link.measure() if duration == 0 else link.advance(command)
+        return np.asarray(found.angle[0])
+
+
+class Interlock:
+    """What keeps a stand-in for a board as strict as the board, so that a script runs on both.
+
+    Parameters
+    ----------
+    name
+        Of the stand-in, for messages.
+    pressure_limit
+        Pa, above which nothing is pushed.
+    """
+
+    def __init__(self, name: str, pressure_limit: float) -> None:
+        self.name, self.pressure_limit = name, pressure_limit
+        self.stopped = self.homed = False
+        self._event = ""
+
+    def permitted(self, command: ArrayLike, pressure: float) -> float:
+        """Return the speed that a command becomes at a pressure [Pa], or refuse it.
+
+        Raises
+        ------
+        InvalidInputError
+            If the command is not one finite number.
+        CommandRefusedError
+            After an emergency stop, or for a push before homing.
+        """
+        speed = one_speed(command)
+        if self.stopped:
+            raise CommandRefusedError(
+                self.name, "emergency stop; clear() takes it back", command="advance"
+            )
+        if speed > 0 and not self.homed:
+            raise CommandRefusedError(
+                self.name, "the plunger's place is not known; home() first", command="advance"
+            )
+        if speed > 0 and pressure > self.pressure_limit:
+            self._event = "held back: over pressure"
+            return 0.0
+        return speed
+
+    def take_event(self) -> str:
+        """Return the last event and forget it."""
+        event, self._event = self._event, ""
+        return event
+
+
+def one_speed(command: ArrayLike) -> float:
+    """Return a command of any shape with one element as a number, rad/s.
+
+    >>> one_speed([[2]])
+    2.0
+    """
+    values = np.asarray(command, dtype=np.float64)
+    if values.size != 1 or not np.isfinite(values).all():
+        raise InvalidInputError("command", expected="one finite motor speed, rad/s", got=command)
+    return float(values.item())
+
+
+def by_finger(found: Measurement) -> Measurement:
+    """Return a measurement of one run with its angles as shape (fingers, 1)."""
+    return replace(
+        found,
+        pressure=found.pressure.reshape(1),
+        angle=found.angle.reshape(-1, 1).copy(),
+        pressure_counts=found.pressure_counts.reshape(1),
+        angle_counts=found.angle_counts.reshape(-1, 1),
+    )

@@ -1,0 +1,172 @@
+"""A run on whatever is connected: driven, logged, and brought to rest whatever happens."""
+
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from softgrip.control.loop import SPEED_LIMIT
+from softgrip.control.state_feedback import SPEED_DIGITS
+from softgrip.materials.arrays import Floats, check_positive
+from softgrip.rig.board_errors import BoardError, ConnectionLostError
+from softgrip.rig.connection import Connection, one_speed
+from softgrip.rig.gripper_loop import CommandSequence, GripperController
+from softgrip.rig.gripper_tests import column
+from softgrip.rig.run_log import RunLog, plain
+from softgrip.rig.sensors import Measurement
+
+RECONNECT_WITHIN = 10.0
+"""s: long enough to put a cable back."""
+LONG_RUN = 5.0
+"""s: a shorter run shows no progress."""
+
+Progress = Callable[[float, float], None]
+"""Called with the time of a run and its duration, s."""
+
+
+@dataclass(frozen=True)
+class Recording:
+    """How a run went.
+
+    Attributes
+    ----------
+    path
+        Of its log.
+    samples
+        Number of rows given to the log, the one at the start included.
+    reconnections
+        When the line was lost and found again: times of the run, s.
+    log_failure
+        Why rows are missing in the log; empty if none is.
+    """
+
+    path: Path
+    samples: int
+    reconnections: tuple[float, ...]
+    log_failure: str
+
+
+def show_progress(done: float, duration: float) -> None:
+    """Write a bar on the standard error stream, over the one before."""
+    if duration >= LONG_RUN and (sys.stderr.isatty() or "ipykernel" in sys.modules):
+        bar = "#" * int(30 * done / duration)
+        end = "\n" if done >= duration else ""
+        print(f"\r[{bar:30}] {done:.0f} of {duration:.0f} s", end=end, file=sys.stderr, flush=True)
+
+
+def record(
+    connection: Connection,
+    controller: GripperController | ArrayLike,
+    duration: float,
+    path: Path | str,
+    *,
+    references: ArrayLike | None = None,
+    limit: float = SPEED_LIMIT,
+    shows: str = "",
+    reconnect_within: float = RECONNECT_WITHIN,
+    progress: Progress = show_progress,
+) -> Recording:
+    """Drive a rig, write the log, and leave the motor at rest.
+
+    Parameters
+    ----------
+    connection
+        The rig, homed. It stays open.
+    controller
+        From the angles, rad, shape (fingers, 1), to the motor speed, rad/s: a controller of Chapter
+        6, one of Chapters 3 and 4 in `gripper_loop.OnTheMean`; or the speeds of each period, shape
+        (N,).
+    duration
+        s.
+    path
+        Of the log, which must not exist.
+    references
+        rad, shape (fingers,), for the log; None in open loop.
+    limit
+        The command is cut to it, rad/s.
+    shows
+        What the log shows, one line.
+    reconnect_within
+        How long a lost line is waited for, s. The board by itself stops the motor meanwhile.
+    progress
+        Told of each period.
+
+    Returns
+    -------
+    Recording
+        Of a run that lasted to its end.
+
+    Raises
+    ------
+    BoardError
+        If a line stays lost, a command is refused, or a replayed log is over. The log is closed
+        and its last row says it; the same holds for whatever a controller raises, and for Ctrl-C.
+    InvalidInputError
+        If the path exists, or an argument is out of range.
+    """
+    check_positive(duration=duration, limit=limit, reconnect_within=reconnect_within)
+    control = controller if hasattr(controller, "update") else CommandSequence(controller)
+    header = connection.header()
+    header = replace(header, notes={**header.notes, **({"shows": shows} if shows else {})})
+    fingers, wanted = connection.fingers, None if references is None else np.ravel(references)
+    units: dict[str, str] = {}
+    for finger in range(1, fingers):
+        units |= {column("angle_counts", finger): "count", column("angle", finger): "rad"}
+    if wanted is not None:
+        units |= {column("reference", finger): "rad" for finger in range(fingers)}
+    lost: list[float] = []
+    samples = 1
+    seen = connection.measure()
+    start = float(seen.time)
+    with RunLog(Path(path), header, more=units) as log:
+        try:
+            log.write(event=plain(connection.take_event()), **_row(seen, start, 0.0, wanted))
+            while float(seen.time) - start < duration - connection.period / 2:
+                answer = np.round(np.asarray(control.update(seen.angle), np.float64), SPEED_DIGITS)
+                command = float(np.clip(one_speed(answer), -limit, limit))
+                try:
+                    seen = connection.advance(command)
+                except ConnectionLostError as error:
+                    lost.append(float(seen.time) - start)
+                    log.note(str(error))
+                    connection.reconnect(reconnect_within)
+                    # Until then the board held nothing: its own watchdog had stopped the motor.
+                    command, seen = 0.0, connection.measure()
+                    log.note("line found again")
+                row = _row(seen, start, command, wanted)
+                log.write(event=plain(connection.take_event()), **row)
+                samples += 1
+                progress(row["time"], duration)
+        except BaseException as error:  # Ctrl-C too: the log says why it ends
+            log.note(f"ended by {type(error).__name__}: {error}")
+            raise
+        finally:
+            _rest(connection, log)
+    return Recording(Path(path), samples, tuple(lost), log.failure)
+
+
+def _rest(connection: Connection, log: RunLog) -> None:
+    try:
+        connection.stop()
+    except BoardError as error:  # a board that does not hear has stopped the motor by itself
+        log.note(f"the stop was not heard: {error}")
+
+
+def _row(
+    seen: Measurement, start: float, command: float, wanted: Floats | None
+) -> dict[str, float]:
+    row = {
+        "time": round(float(seen.time) - start, 9),
+        "command": command,
+        "pressure_counts": int(seen.pressure_counts[0]),
+        "pressure": float(seen.pressure[0]),
+    }
+    for finger, (angle, counts) in enumerate(zip(seen.angle, seen.angle_counts, strict=True)):
+        row |= {column("angle", finger): float(angle[0])}
+        row |= {column("angle_counts", finger): int(counts[0])}
+    if wanted is not None:
+        row |= {column("reference", k): round(float(angle), 9) for k, angle in enumerate(wanted)}
+    return row

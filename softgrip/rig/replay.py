@@ -1,0 +1,112 @@
+"""A log as a rig: it says again what was recorded, whatever it is told."""
+
+from dataclasses import replace
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from softgrip.errors import DataFileError
+from softgrip.rig.board_errors import EndOfReplayError
+from softgrip.rig.connection import Interlock
+from softgrip.rig.gripper_tests import fingers_of
+from softgrip.rig.log_reader import read_log
+from softgrip.rig.log_schema import LogHeader
+from softgrip.rig.sensors import Measurement
+
+
+class ReplayConnection:
+    """A log of the gripper as a `Connection`, one row a period.
+
+    Parameters
+    ----------
+    path
+        Of the log.
+
+    Attributes
+    ----------
+    difference
+        Largest difference so far between a command given and the one recorded, rad/s: a replay
+        cannot answer to another command, so that above zero it says nothing of the controller.
+
+    Raises
+    ------
+    DataFileError
+        If it cannot be read, holds no row, or is a log of the pad.
+    """
+
+    def __init__(self, path: Path | str) -> None:
+        self.log = read_log(path)
+        if self.log.header.set_up != "gripper" or self.log["time"].size == 0:
+            raise DataFileError(path, expected="rows of a gripper", got=self.log.header.set_up)
+        self.name, self.period, self.difference = str(path), self.log.header.period, 0.0
+        self._angles = fingers_of(self.log)
+        self._counts = fingers_of(self.log, "angle_counts").astype(np.int64)
+        self.fingers, self._row, self._events = len(self._angles), 0, dict(self.log.events)
+        # What was recorded was permitted then: only the latch and the homing are kept here.
+        self._interlock = Interlock(f"replay of {path}", np.inf)
+
+    def measure(self) -> Measurement:
+        """Return the present row."""
+        row = self._row
+        return Measurement(
+            float(self.log["time"][row]),
+            self.log["pressure"][[row]],
+            self._angles[:, [row]],
+            self.log["pressure_counts"][[row]].astype(np.int64),
+            self._counts[:, [row]],
+        )
+
+    def advance(self, command: ArrayLike) -> Measurement:
+        """Return the next row; see `Connection.advance`.
+
+        Raises
+        ------
+        EndOfReplayError
+            After the last row.
+        """
+        speed = self._interlock.permitted(command, 0.0)
+        if self._row + 1 == self.log["time"].size:
+            raise EndOfReplayError(self.name, f"the log ends after row {self._row + 1}")
+        self._row += 1
+        self.difference = max(self.difference, abs(speed - float(self.log["command"][self._row])))
+        return self.measure()
+
+    def take_event(self) -> str:
+        """Return the words of the present row, once."""
+        return self._events.pop(float(self.log["time"][self._row]), "")
+
+    def stop(self) -> None:
+        """Do nothing: nothing moves."""
+
+    def emergency_stop(self) -> None:
+        """Refuse commands until `clear`."""
+        self._interlock.stopped = True
+
+    def clear(self) -> None:
+        """Take an emergency stop back."""
+        self._interlock.stopped = False
+
+    def home(self) -> None:
+        """Allow pushes."""
+        self._interlock.homed = True
+
+    def reconnect(self, within: float) -> None:
+        """Do nothing: this line is never lost."""
+
+    def header(self) -> LogHeader:
+        """Return the header of the log, which stays what it was: simulated or logged."""
+        return replace(self.log.header, back_end="replay", source=f"replay of {self.name}")
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Leave; nothing is open."""

@@ -1,0 +1,130 @@
+"""The simulated rig behind the interface of a board; it refuses what the board refuses."""
+
+from types import TracebackType
+from typing import Self
+
+from numpy.typing import ArrayLike
+
+from softgrip.errors import InvalidInputError
+from softgrip.provenance import Provenance
+from softgrip.rig.calibration import FULL_PRESSURE, design_1
+from softgrip.rig.calibration_table import FILE
+from softgrip.rig.connection import Interlock, by_finger
+from softgrip.rig.gripper_calibration_table import FILE as GRIPPER_FILE
+from softgrip.rig.gripper_parameters import printed_gripper
+from softgrip.rig.gripper_rig import GripperRig
+from softgrip.rig.log_schema import LogHeader
+from softgrip.rig.plant import SimulatedRig
+from softgrip.rig.sensors import Measurement
+
+
+def simulated_finger(*, seed: int = 0) -> "SimulatedConnection":
+    """Return the finger of Chapters 3 to 5, sampled each 25 ms."""
+    return SimulatedConnection(SimulatedRig(design_1(), seed=seed), f"data/{FILE}", seed)
+
+
+def simulated_gripper(*, seed: int = 0) -> "SimulatedConnection":
+    """Return the two fingers of Section 6.4, sampled each 100 ms, left finger first."""
+    return SimulatedConnection(
+        GripperRig(printed_gripper(), seed=seed), f"data/{GRIPPER_FILE}", seed
+    )
+
+
+class SimulatedConnection:
+    """A simulated rig of one run as a `Connection`.
+
+    Parameters
+    ----------
+    rig
+        Which; it stays at hand as `rig`, with its truth.
+    calibration, seed
+        For the header of logs.
+    pressure_limit
+        Gauge, Pa.
+
+    Examples
+    --------
+    >>> with simulated_finger() as finger:
+    ...     finger.home()
+    ...     finger.advance(5.0).angle.shape
+    (1, 1)
+    """
+
+    def __init__(
+        self,
+        rig: SimulatedRig | GripperRig,
+        calibration: str = "none",
+        seed: int = 0,
+        *,
+        pressure_limit: float = FULL_PRESSURE,
+    ) -> None:
+        if rig.runs != 1:
+            raise InvalidInputError("rig", expected="one run", got=rig.runs)
+        self.rig, self.period = rig, rig.period
+        self.fingers = 1 if isinstance(rig, SimulatedRig) else len(rig.parameters.fingers)
+        self._calibration, self._seed = calibration, seed
+        self._interlock = Interlock("simulated rig", pressure_limit)
+        self._last = by_finger(
+            rig.advance(0.0, 0.0) if isinstance(rig, SimulatedRig) else rig.measure()
+        )
+
+    def measure(self) -> Measurement:
+        """Return the last sample: a rig that is sampled knows nothing in between."""
+        return self._last
+
+    def advance(self, command: ArrayLike) -> Measurement:
+        """Hold a motor speed for one period; see `Connection.advance`."""
+        speed = self._interlock.permitted(command, float(self._last.pressure[0]))
+        self._last = by_finger(self.rig.advance(speed))
+        return self._last
+
+    def take_event(self) -> str:
+        """Return words on what happened since the last call."""
+        return self._interlock.take_event()
+
+    def stop(self) -> None:
+        """Bring the motor to rest, which takes a period."""
+        self._last = by_finger(self.rig.advance(0.0))
+
+    def emergency_stop(self) -> None:
+        """Stop, and refuse to move until `clear`."""
+        self._interlock.stopped = True
+        self.stop()
+
+    def clear(self) -> None:
+        """Take an emergency stop back."""
+        self._interlock.stopped = False
+
+    def home(self) -> None:
+        """Draw the plunger out to its end; a plunger that is there does not move."""
+        limit = self.rig.parameters.pump.speed_limit
+        while self.rig.truth.plunger[0] > 0:
+            self._last = by_finger(self.rig.advance(-limit))
+        self._interlock.homed = True
+
+    def reconnect(self, within: float) -> None:
+        """Do nothing: this line is never lost."""
+
+    def header(self) -> LogHeader:
+        """Return what a log says of this rig."""
+        pump = self.rig.parameters.pump
+        return LogHeader(
+            provenance=Provenance.SIMULATED,
+            source="softgrip.rig.simulated_connection",
+            back_end="simulated rig",
+            period=self.period,
+            calibration=self._calibration,
+            seed=str(self._seed),
+            notes={"area": f"{pump.area!r} m^2", "lead": f"{pump.lead!r} m"},
+        )
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.stop()

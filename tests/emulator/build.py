@@ -1,0 +1,102 @@
+"""Builds what the emulator needs: the firmware by avr-gcc, and the harness by gcc."""
+
+import shutil
+import subprocess
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from softgrip.rig.firmware.header import SKETCH
+from softgrip.rig.protocol import SetUp
+
+CORE = Path("/usr/share/arduino/hardware/arduino/avr")
+HARNESS = Path(__file__).with_name("harness.c")
+NEEDED = {
+    "avr-gcc": "gcc-avr avr-libc binutils-avr",
+    "gcc": "gcc",
+    str(CORE / "cores"): "arduino-core-avr",
+    "/usr/include/simavr/sim_avr.h": "libsimavr-dev libelf-dev",
+}
+
+CHIP = ["-mmcu=atmega2560", "-DF_CPU=16000000L", "-DARDUINO=10808", "-DARDUINO_ARCH_AVR"]
+# Debian's core asks for a macro that its own compiler does not have.
+CHIP += ["-DDECIMAL_DIG=__DECIMAL_DIG__", "-Os", "-ffunction-sections", "-fdata-sections"]
+INCLUDES = [f"-I{CORE}/cores/arduino", f"-I{CORE}/variants/mega"]
+
+
+def missing() -> str:
+    """Return the Debian packages that are missing, or an empty string."""
+    packages = [
+        package
+        for thing, package in NEEDED.items()
+        if not (Path(thing).exists() or shutil.which(thing))
+    ]
+    return " ".join(packages)
+
+
+WHAT_IS_MISSING = f"the emulated board needs: apt install {missing()}" if missing() else ""
+needs_emulator = pytest.mark.skipif(bool(missing()), reason=WHAT_IS_MISSING)
+
+
+def _run(*command: object) -> str:
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError(f"{command[0]} failed:\n{done.stderr}")
+    return done.stdout
+
+
+@cache
+def core(folder: Path) -> Path:
+    """Build the part of the Arduino core that the sketch starts from."""
+    objects = []
+    for name in ("main.cpp", "hooks.c", "wiring.c", "wiring_digital.c"):
+        source = CORE / "cores" / "arduino" / name
+        objects.append(folder / f"core_{name}.o")
+        compiler = "avr-g++" if name.endswith("cpp") else "avr-gcc"
+        _run(compiler, *CHIP, *INCLUDES, "-w", "-c", source, "-o", objects[-1])
+    archive = folder / "core.a"
+    _run("avr-ar", "rcs", archive, *objects)
+    return archive
+
+
+@cache
+def firmware(folder: Path, set_up: SetUp = SetUp.GRIPPER, *, valve: bool = False) -> Path:
+    """Build the firmware as the Arduino IDE would, and return its ELF file."""
+    if WHAT_IS_MISSING:
+        pytest.skip(WHAT_IS_MISSING)
+    elf = folder / f"softgrip_rig_{set_up.name.lower()}{'_valve' if valve else ''}.elf"
+    _run(
+        *("avr-g++", *CHIP, *INCLUDES, "-std=gnu++11", "-Wall", "-Wextra", "-Werror"),
+        *("-fno-exceptions", "-fno-threadsafe-statics", "-flto", "-Wl,--gc-sections"),
+        *(f"-DSET_UP={int(set_up)}", f"-DVALVE={int(valve)}", "-include", "Arduino.h"),
+        *("-x", "c++", SKETCH / "softgrip_rig.ino", *sorted(SKETCH.glob("*.cpp"))),
+        *("-x", "none", core(folder), "-lm", "-o", elf),
+    )
+    return elf
+
+
+def sizes(elf: Path) -> tuple[int, int]:
+    """Return the bytes of flash and of RAM (without the stack) that a firmware takes."""
+    text, data, bss = (int(part) for part in _run("avr-size", elf).splitlines()[1].split()[:3])
+    return text + data, data + bss
+
+
+def symbol(elf: Path, name: str) -> int:
+    """Return the address of a symbol of a firmware."""
+    for line in _run("avr-nm", elf).splitlines():
+        address, _, found = line.partition(" ")
+        if found.split()[-1] == name:
+            return int(address, 16)
+    raise RuntimeError(f"no symbol {name} in {elf}")
+
+
+@cache
+def harness(folder: Path) -> Path:
+    """Build the harness as a shared library."""
+    library = folder / "harness.so"
+    _run(
+        *("gcc", "-O2", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", HARNESS),
+        *("-I/usr/include/simavr", "-lsimavr", "-lelf", "-o", library),
+    )
+    return library

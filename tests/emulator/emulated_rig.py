@@ -1,0 +1,96 @@
+"""The emulated board with simulated physics at its pins: the loop is closed by counts and steps."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from softgrip.rig.calibration import design_1
+from softgrip.rig.driver import Rig
+from softgrip.rig.gripper_parameters import printed_gripper
+from softgrip.rig.gripper_rig import GripperRig
+from softgrip.rig.parameters import PumpParameters
+from softgrip.rig.plant import SimulatedRig
+from softgrip.rig.protocol import CHANNELS
+from tests.emulator.board import CLOCK, PRESSURE, EmulatedBoard
+from tests.emulator.link import EmulatedLink
+
+FLEX = CHANNELS.index("flex_1")
+PERIOD = 0.005
+"""At which board and physics tell each other of steps and volts, s."""
+CYCLE = 1 / CLOCK
+"""Time goes on by whole cycles: what is nearer than one is now."""
+STEPS = 800
+"""A revolution, as in the firmware's config.h; a test holds it against what the board says."""
+
+
+def stiff(pump: PumpParameters) -> PumpParameters:
+    """Return a pump whose motor is where it is told to be: the board's ramps are the motor's."""
+    return replace(pump, speed_limit=1e4, acceleration_limit=1e9)
+
+
+def finger(seed: int = 0, *, position: int = 200) -> SimulatedRig:
+    """Return the simulated rig of Design 1, its plunger so many steps from home."""
+    parameters = design_1()
+    pump = stiff(parameters.pump)
+    plunger = position * pump.lead / STEPS
+    parameters = replace(parameters, pump=pump)
+    return SimulatedRig(parameters, seed=seed, period=PERIOD, plunger=plunger)
+
+
+def gripper(seed: int = 0) -> GripperRig:
+    """Return the simulated gripper of two fingers, its plunger drawn out."""
+    parameters = printed_gripper()
+    parameters = replace(parameters, pump=stiff(parameters.pump))
+    return GripperRig(parameters, seed=seed, period=PERIOD)
+
+
+class EmulatedRig(EmulatedLink):
+    """A `Link` to an emulated board that drives simulated fingers; all of it is simulated.
+
+    Parameters
+    ----------
+    plant
+        Physics of one run, of `finger` or `gripper`; None for `finger`.
+    """
+
+    def __init__(self, plant: SimulatedRig | GripperRig | None = None) -> None:
+        self.plant = finger() if plant is None else plant
+        step = self.plant.parameters.pump.lead / STEPS
+        super().__init__(EmulatedBoard(position=round(float(self.plant.truth.plunger[0]) / step)))
+        self._told = self.board.time
+        self._exchange(0)
+
+    def _exchange(self, periods: int) -> None:
+        """Move the plunger to where the motor is by now, and put the sensors' volts on the pins."""
+        pump = self.plant.parameters.pump
+        for _ in range(periods):
+            place = max(self.board.position, 0) * pump.lead / STEPS
+            away = place - float(self.plant.truth.plunger[0])
+            found = self.plant.advance(away / pump.advance / PERIOD)
+            self.board.set_count(PRESSURE, int(found.pressure_counts[0]))
+            for k, count in enumerate(np.ravel(found.angle_counts)[:2]):
+                self.board.set_count(FLEX + k, int(count))
+        self._told += periods * PERIOD
+
+    def advance(self, seconds: float) -> None:
+        """Let virtual time pass."""
+        self._until(self.board.time + seconds)
+
+    def _until(self, end: float) -> None:
+        while self.board.time < end - CYCLE:
+            self.board.advance(min(end, self._told + PERIOD) - self.board.time)
+            if self.board.time >= self._told + PERIOD - CYCLE:
+                self._exchange(1)
+
+    def read(self, timeout: float) -> bytes:
+        """Return what has come; let at most `timeout` s of virtual time pass for a first byte."""
+        self._check()
+        end = self.board.time + timeout
+        while not (found := self.board.read(0.0)) and self.board.time < end - CYCLE:
+            self._until(min(end, self.board.time + PERIOD / 10))
+        return found
+
+
+def open_rig() -> Rig:
+    """Return the driver at the end of a line to an emulated rig."""
+    return Rig(EmulatedRig(), emulated=True)

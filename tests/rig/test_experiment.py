@@ -1,0 +1,280 @@
+"""Runs that are logged, on what goes well and on what does not."""
+
+import signal
+import subprocess
+import sys
+import threading
+import time
+from contextlib import suppress
+
+import numpy as np
+import pytest
+
+from softgrip.control.loop import SPEED_LIMIT, run_loop
+from softgrip.errors import InvalidInputError
+from softgrip.provenance import data_folder
+from softgrip.rig.board_errors import CommandRefusedError, ConnectionLostError
+from softgrip.rig.calibration import design_1
+from softgrip.rig.closed_loop import controller
+from softgrip.rig.closed_loop_logs import SEED, STEP
+from softgrip.rig.connect import connect
+from softgrip.rig.connection import ConnectionPlant
+from softgrip.rig.driver import Rig
+from softgrip.rig.experiment import record, show_progress
+from softgrip.rig.gripper_control import gripper_controller, own_model, target_angles
+from softgrip.rig.gripper_loop import OnTheMean
+from softgrip.rig.gripper_parameters import printed_gripper
+from softgrip.rig.gripper_rig import GripperRig
+from softgrip.rig.log_reader import read_log
+from softgrip.rig.plant import SimulatedRig
+from softgrip.rig.protocol import Flag
+from softgrip.rig.simulated_connection import SimulatedConnection
+
+FOLDER = data_folder() / "simulated"
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "log.csv"
+
+
+@pytest.fixture
+def rig(stub):
+    with Rig(stub) as opened:
+        opened.home()
+        yield opened
+
+
+def finger():
+    return SimulatedConnection(SimulatedRig(design_1(), seed=SEED))
+
+
+class After:
+    """A controller that turns slowly, and does something once at a sample."""
+
+    def __init__(self, sample, action):
+        self.sample, self.action, self.count = sample, action, 0
+
+    def update(self, measured):
+        self.count += 1
+        if self.count == self.sample:
+            self.action()
+        return 0.5
+
+
+def stop_with(error):
+    def action():
+        raise error
+
+    return action
+
+
+# The controllers of the chapters, through the driver's interface. The logs that the package brings
+# were made by other loops, so that they are an oracle.
+
+
+def test_chapter_4_pid_gives_the_log_of_its_own_loop(path):
+    with finger() as connection:
+        connection.home()
+        record(connection, OnTheMean(controller("full"), [STEP]), 5.0, path, references=[STEP])
+    made, kept = read_log(path), read_log(FOLDER / "pid-full.csv")
+    assert made["time"].tolist() == kept["time"][:201].tolist()
+    # Rounded commands move the angle by far less than a count, but one may tip over.
+    assert made["command"] == pytest.approx(kept["command"][:201], abs=1e-2)
+    assert made["angle_counts"] == pytest.approx(kept["angle_counts"][:201], abs=1)
+
+
+def test_chapter_3_lqr_gives_the_log_of_its_own_loop():
+    kept = read_log(FOLDER / "lqr-fast.csv")
+    with finger() as connection:
+        connection.home()
+        made = run_loop(
+            ConnectionPlant(connection), controller("lqr fast"), STEP,
+            duration=5.0, limit=SPEED_LIMIT,
+        )  # fmt: skip
+    assert made.measured[0].tolist() == kept["angle"][:201].tolist()
+
+
+def test_chapter_6_scheme_gives_the_log_of_its_own_loop(path):
+    kept = read_log(FOLDER / "gripper-fast-1.csv")
+    targets = target_angles(own_model())
+    with SimulatedConnection(GripperRig(printed_gripper(), seed=SEED)) as gripper:
+        gripper.home()
+        record(gripper, gripper_controller("H 4.8/s"), 3.0, path, references=targets)
+    made = read_log(path)
+    assert set(made.columns) == set(kept.columns)
+    for name in kept.columns:
+        assert made[name].tolist() == kept[name][:31].tolist()
+
+
+def test_chapter_4_pid_runs_through_the_driver(rig, path):
+    record(rig, OnTheMean(controller("full"), [STEP]), 6.0, path, references=[STEP])
+    log = read_log(path)
+    # The stub drives a simulated finger, which rests at the reference; its noise is 2 deg.
+    assert log["angle"][-40:].mean() == pytest.approx(STEP, abs=np.radians(6))
+    assert log.header.provenance == "simulated"
+
+
+def test_a_plant_of_a_connection_has_one_period():
+    with finger() as connection, pytest.raises(InvalidInputError, match="duration"):
+        ConnectionPlant(connection).advance(0.0, 0.1)
+
+
+# What goes wrong.
+
+
+def test_a_log_is_never_written_over(path):
+    path.write_text("precious")
+    with connect("simulated") as one, pytest.raises(InvalidInputError, match="does not exist"):
+        record(one, [0.0], 0.1, path)
+    assert path.read_text() == "precious"
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), ValueError("no, not this")])
+def test_an_error_stops_the_motor_and_the_log_says_it(rig, stub, path, error):
+    with pytest.raises(type(error)):
+        record(rig, After(8, stop_with(error)), 10.0, path)
+    assert stub.speed == 0
+    log = read_log(path)
+    assert log["time"].size == 8
+    assert f"ended by {type(error).__name__}" in log.events[-1][1]
+
+
+def test_a_refused_command_ends_the_run_at_rest(rig, stub, path):
+    with pytest.raises(CommandRefusedError, match="estopped"):
+        record(rig, After(8, rig.emergency_stop), 10.0, path)
+    assert "refused: estopped" in read_log(path).events[-1][1]
+
+
+def test_a_cable_pulled_and_put_back_costs_a_gap_that_is_said(rig, stub, path):
+    made = record(rig, After(20, lambda: stub.pull(1.0)), 3.0, path)
+    log = read_log(path)
+    assert len(made.reconnections) == 1
+    step = np.diff(log["time"])
+    assert (step > 0.03).sum() == 1
+    assert step.max() == pytest.approx(1.0, abs=0.1)
+    words = " ".join(words for _, words in log.events)
+    assert "cable pulled" in words
+    assert "found again" in words
+    # Meanwhile the board stopped the motor by itself; afterwards the run went on.
+    assert log["command"][np.argmax(step) + 1] == 0
+    assert log["command"][-1] == 0.5
+    assert log["time"][-1] == pytest.approx(3.0, abs=0.03)
+
+
+def test_a_cable_that_stays_away_ends_the_run_in_time(rig, stub, path):
+    with pytest.raises(ConnectionLostError, match="not found again in 2 s"):
+        record(rig, After(20, lambda: stub.pull(30.0)), 60.0, path, reconnect_within=2.0)
+    log = read_log(path)
+    assert log["time"].size == 20
+    assert "not found again" in log.events[-1][1]
+    stub.pull(0.0)
+    rig.reconnect(1.0)
+    assert stub.speed == 0
+
+
+def test_a_reset_under_way_ends_the_run_since_the_place_is_lost(rig, stub, path):
+    with pytest.raises(CommandRefusedError, match="not homed"):
+        record(rig, After(20, stub.reset), 60.0, path)
+    assert stub.speed == 0
+    words = " ".join(words for _, words in read_log(path).events)
+    assert "the board was reset" in words
+    assert "refused: not homed" in words
+
+
+def test_a_real_line_pulled_and_put_back(socket_board, path):
+    def pull():
+        socket_board.pull()
+        threading.Timer(0.4, socket_board.plug).start()
+
+    with Rig(socket_board.url, emulated=True) as rig:
+        rig.home()
+        made = record(rig, After(10, pull), 2.0, path)
+    log = read_log(path)
+    assert len(made.reconnections) == 1
+    assert 0.3 < np.diff(log["time"]).max() < 1.7
+    assert log["time"][-1] >= 1.9
+    assert socket_board.board.speed == 0
+    assert not socket_board.board.flags & Flag.MOVING
+
+
+KILLED = """
+import sys, time
+from softgrip.rig.connect import connect
+from softgrip.rig.experiment import record
+
+class Slow:
+    def update(self, measured):
+        time.sleep(0.005)
+        return 0.1
+
+def say(done, duration):
+    print(done, flush=True)
+
+with connect("simulated") as rig:
+    rig.home()
+    record(rig, Slow(), 1e4, sys.argv[1], progress=say)
+"""
+
+
+def test_a_killed_host_leaves_a_log_that_lacks_a_second_at_most(path):
+    child = subprocess.Popen(
+        [sys.executable, "-c", KILLED, str(path)], stdout=subprocess.PIPE, text=True
+    )
+    try:
+        begin, told = None, []
+        for line in child.stdout:
+            now = time.monotonic()
+            begin = now if begin is None else begin
+            told.append((now, float(line)))
+            if now - begin > 1.5:
+                break
+    finally:
+        child.send_signal(signal.SIGKILL)
+        child.wait()
+        child.stdout.close()
+    log = read_log(path)
+    second_ago = [done for now, done in told if now < told[-1][0] - 1.0]
+    assert len(second_ago) > 5
+    assert log["time"][-1] >= second_ago[-1]
+    assert np.diff(log["time"]) == pytest.approx(0.025)
+
+
+FULL_DISK = """
+import resource, sys
+from softgrip.rig.connect import connect
+from softgrip.rig.experiment import record
+
+resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
+with connect("simulated") as rig:
+    rig.home()
+    made = record(rig, [0.1] * 400, 10.0, sys.argv[1])
+    assert rig.rig.time >= 10.0
+print(made.samples, made.log_failure)
+"""
+
+
+def test_a_full_disk_ends_the_log_and_not_the_run(path):
+    done = subprocess.run(
+        [sys.executable, "-c", FULL_DISK, str(path)],
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert done.stdout.startswith("401 OSError: ")
+    assert done.stderr.count("the run goes on") == 1
+    assert "Traceback" not in done.stderr
+    assert path.stat().st_size == 4000
+    assert 10 < read_log(path)["time"].size < 100  # and what is there can be read
+
+
+def test_progress_is_shown_of_long_runs_on_a_terminal(capsys, monkeypatch):
+    show_progress(1.0, 10.0)
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    show_progress(1.0, 2.0)
+    assert capsys.readouterr().err == ""
+    show_progress(5.0, 10.0)
+    assert "###" in (shown := capsys.readouterr().err)
+    assert "5 of 10 s" in shown
+    with suppress(KeyboardInterrupt):
+        show_progress(10.0, 10.0)
+    assert capsys.readouterr().err.endswith("\n")

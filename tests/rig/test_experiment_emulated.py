@@ -1,0 +1,153 @@
+"""The dissertation's controllers on the real firmware, emulated, with simulated fingers."""
+
+import numpy as np
+import pytest
+
+from softgrip.control.loop import SPEED_LIMIT, run_loop
+from softgrip.rig.board_commands import HUNG_AFTER
+from softgrip.rig.board_errors import CommandRefusedError
+from softgrip.rig.check import run_check
+from softgrip.rig.closed_loop import controller
+from softgrip.rig.closed_loop_logs import STEP
+from softgrip.rig.connection import ConnectionPlant
+from softgrip.rig.driver import Rig
+from softgrip.rig.experiment import record
+from softgrip.rig.gripper_control import gripper_controller, own_model, target_angles
+from softgrip.rig.gripper_loop import OnTheMean
+from softgrip.rig.gripper_parameters import printed_gripper
+from softgrip.rig.gripper_rig import PERIOD
+from softgrip.rig.gripper_tests import fingers_of
+from softgrip.rig.log_reader import read_log
+from softgrip.units import DEG
+from tests.emulator.build import needs_emulator
+
+pytestmark = needs_emulator
+
+END_NOISE = 2 * DEG / np.sqrt(40) * 4
+"""rad: four deviations of the mean of 40 samples of the flex sensor's noise."""
+
+
+def finger_rig():
+    from tests.emulator.emulated_rig import open_rig
+
+    return open_rig()
+
+
+def gripper_rig():
+    from tests.emulator.emulated_rig import EmulatedRig, gripper
+
+    return Rig(EmulatedRig(gripper()), fingers=2, period=PERIOD, pump=printed_gripper().pump)
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "log.csv"
+
+
+def test_chapter_4_pid(path):
+    with finger_rig() as rig:
+        rig.home()
+        record(rig, OnTheMean(controller("full"), [STEP]), 6.0, path, references=[STEP])
+        assert rig.lost == 0
+    log = read_log(path)
+    # 5 % of the step, within which this PID rests by then, and the sensor's noise.
+    assert log["angle"][-40:].mean() == pytest.approx(STEP, abs=0.05 * STEP + END_NOISE)
+    assert (log.header.back_end, log.header.provenance) == ("emulated board", "simulated")
+    assert np.diff(log["time"]) == pytest.approx(0.025, abs=1e-6)
+
+
+def test_chapter_3_lqr():
+    with finger_rig() as rig:
+        rig.home()
+        made = run_loop(
+            ConnectionPlant(rig), controller("lqr fast"), STEP, duration=3.0, limit=SPEED_LIMIT
+        )
+    assert made.measured[0, -40:].mean() == pytest.approx(STEP, abs=0.05 * STEP + END_NOISE)
+
+
+def test_chapter_6_scheme(path):
+    targets = target_angles(own_model())
+    with gripper_rig() as rig:
+        rig.home()
+        record(rig, gripper_controller("H 2/s"), 7.0, path, references=targets)
+    log = read_log(path)
+    assert log["time"].size == 71
+    ends = fingers_of(log)[:, -20:].mean(axis=1)
+    # Run to run the fingers' stiffness varies: the kept logs of this controller err by up to
+    # 2.5 deg, and twenty samples of the flex sensor by 0.45 deg.
+    assert ends == pytest.approx(targets, abs=4 * DEG)
+    assert ends[0] > ends[1]
+
+
+def test_what_the_board_counts_is_what_the_pump_does():
+    with finger_rig() as rig:
+        rig.home()
+        for _ in range(40):
+            rig.advance(10.0)
+        rig.stop()
+        told = rig.line.scale.travel_in(rig.telemetry.position)
+        plunger = float(rig.line.session.link.plant.truth.plunger[0])
+        # 1 s of 10 rad/s; the stop takes a little more.
+        assert told == pytest.approx(10 / (2 * np.pi) * 8e-3, rel=0.05)
+        assert plunger == pytest.approx(told, abs=2e-5)  # two steps
+
+
+def test_a_check_of_the_firmware():
+    lines = []
+    assert run_check(finger_rig, lines.append) == 0, lines
+    assert any("telemetry: 40." in line and " 0 of 80 frames lost" in line for line in lines)
+
+
+def test_a_host_that_hangs_stops_the_motor():
+    with finger_rig() as rig:
+        rig.home()
+        rig.advance(5.0)
+        board = rig.line.session.link.board
+        begin = board.time
+        rig.line.session.wait(lambda: board.time > begin + HUNG_AFTER + 1.0, 9.0, "time")
+        assert board.edges()[0][-1] - begin < HUNG_AFTER + 0.025 + 0.05 + 0.21
+
+
+def test_firmware_that_hangs_is_reset_and_the_run_ends_at_rest(path):
+    with finger_rig() as rig:
+        rig.home()
+        board, count = rig.line.session.link.board, 0
+
+        class Hangs:
+            def update(self, measured):
+                nonlocal count
+                count += 1
+                if count == 20:
+                    board.hang(interrupts=False)
+                return 1.0
+
+        with pytest.raises(CommandRefusedError, match="not homed"):
+            record(rig, Hangs(), 30.0, path)
+        assert rig.info.reset_cause.name == "WATCHDOG"
+        rig.home()
+        rig.advance(1.0)
+    words = " ".join(words for _, words in read_log(path).events)
+    assert "found again" in words
+
+
+def test_homing_that_is_broken_off_stops_the_motor():
+    with finger_rig() as rig:
+        board = rig.line.session.link.board
+        position = board.position
+        read, count = rig.line.session.link.read, 0
+
+        def interrupted(timeout):
+            nonlocal count
+            count += 1
+            if board.position < position - 50:
+                raise KeyboardInterrupt
+            return read(timeout)
+
+        rig.line.session.link.read = interrupted
+        with pytest.raises(KeyboardInterrupt):
+            rig.home()
+        rig.line.session.link.read = read
+        rig.stop()
+        place = board.position
+        rig.advance(0.0)
+        assert 0 < board.position == place < position
