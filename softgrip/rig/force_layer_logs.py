@@ -1,16 +1,17 @@
 """Logs of the simulated force-measurement layer: ``python -m softgrip.rig.force_layer_logs``.
 
-Each is a CSV file with a header, one row a reading: time, counts, voltage and the true weight.
+One row a reading, with the true weight as the command; what lies on the layer is in the event.
 """
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
 from softgrip.errors import UnknownNameError
-from softgrip.provenance import data_file, data_folder
+from softgrip.provenance import Provenance, data_file, data_folder
 from softgrip.rig.force_layer import ForceLayer
 from softgrip.rig.force_layer_protocols import (
     Reading,
@@ -19,6 +20,9 @@ from softgrip.rig.force_layer_protocols import (
     put_down,
     weight_forces,
 )
+from softgrip.rig.log_reader import read_log
+from softgrip.rig.log_schema import LogHeader
+from softgrip.rig.logs import LogWriter
 from softgrip.tactile.force import table_2_2
 
 COMMAND = "python -m softgrip.rig.force_layer_logs"
@@ -29,23 +33,31 @@ TIMES = 10
 AGES = (0.0, 1.0, 2.0, 4.0, 8.0)
 """h after the calibration, at which long runs begin."""
 
-RUNS = {"weights": 0, "cycles": 1, "objects": 2, "long": 3}
-"""Logs, and the number of the first run of each in `SEED`."""
+RUNS = {
+    "weights": 0,
+    "cycles": 1,
+    "objects": 2,
+    **{f"long-{age:g}h": 3 + k for k, age in enumerate(AGES)},
+}
+"""Logs, and the number of the run of each in `SEED`."""
+
+SHOWS = {
+    "weights": "Figure 2.8 (a), the 22 weights and none, three times each",
+    "cycles": "Figure 2.8 (b), three cycles of loading and unloading to each of three forces",
+    "objects": "Table 2.2, five objects ten times each",
+}
 
 
-def _rows(found: Reading) -> pd.DataFrame:
-    return pd.DataFrame(
-        {
-            "time [s]": found.time.round(6),
-            "counts": found.counts,
-            "voltage [V]": found.voltage.round(6),
-            "weight [N]": found.force.round(9),
-        }
-    )
+@dataclass(frozen=True)
+class LayerLog:
+    """Readings, and the names of what lay on the layer, shape (N,); empty for weights."""
+
+    reading: Reading
+    names: tuple[str, ...] = ()
 
 
-def simulate(name: str) -> pd.DataFrame:
-    """Make the rows of a log; `name` is a key of `RUNS`.
+def simulate(name: str) -> LayerLog:
+    """Make a log; `name` is a key of `RUNS`.
 
     Raises
     ------
@@ -56,19 +68,15 @@ def simulate(name: str) -> pd.DataFrame:
         raise UnknownNameError("log of the force layer", name, [*RUNS])
     run = RUNS[name]
     if name == "weights":
-        return _rows(put_down(weight_forces(), seed=SEED, run=run))
+        return LayerLog(put_down(weight_forces(), seed=SEED, run=run))
     if name == "cycles":
-        return _rows(load_and_unload(seed=SEED, run=run))
+        return LayerLog(load_and_unload(seed=SEED, run=run))
     if name == "objects":
         objects = table_2_2()
         forces = np.repeat([weighed.true for weighed in objects.values()], TIMES)
         found = put_down(forces, seed=SEED, run=run, seating=ForceLayer().object_seating)
-        return _rows(found).assign(object=np.repeat([*objects], TIMES))
-    runs = [
-        _rows(long_run(age, seed=SEED, run=run + k)).assign(**{"start [h]": age})
-        for k, age in enumerate(AGES)
-    ]
-    return pd.concat(runs, ignore_index=True)
+        return LayerLog(found, tuple(np.repeat([*objects], TIMES).tolist()))
+    return LayerLog(long_run(AGES[run - 3], seed=SEED, run=run))
 
 
 def file_of(name: str) -> str:
@@ -77,18 +85,59 @@ def file_of(name: str) -> str:
 
 
 def read(name: str) -> pd.DataFrame:
-    """Read a kept log; `name` is a key of `RUNS`."""
-    return pd.read_csv(data_file(file_of(name)).path, comment="#")
+    """Read a kept log; `name` is a key of `RUNS`, or "long" for all the long ones.
+
+    Returns
+    -------
+    DataFrame
+        Time (s), counts, voltage (V) and weight (N); the object, where there is one; the start (h)
+        after the calibration, of long runs.
+    """
+    if name == "long":
+        runs = [read(f"long-{age:g}h").assign(**{"start [h]": age}) for age in AGES]
+        return pd.concat(runs, ignore_index=True)
+    log = read_log(data_file(file_of(name)).path)
+    frame = pd.DataFrame(
+        {
+            "time [s]": log["time"],
+            "counts": log["layer_counts"].astype(int),
+            "voltage [V]": log["layer"],
+            "weight [N]": log["command"],
+        }
+    )
+    return frame.assign(object=[words for _, words in log.events]) if log.events else frame
 
 
 def write(folder: Path | None = None) -> Iterator[Path]:
     """Make all logs anew, below ``data/`` or another folder; yields each path when it is done."""
-    for name, run in RUNS.items():
+    for name in RUNS:
         path = (folder or data_folder()) / file_of(name)
         path.parent.mkdir(parents=True, exist_ok=True)
-        header = f"# provenance: simulated\n# source: {COMMAND}\n# seed: {SEED} run {run}\n"
-        path.write_text(header + simulate(name).to_csv(index=False), encoding="utf-8")
+        path.unlink(missing_ok=True)
+        _write(name, simulate(name), path)
         yield path
+
+
+def _write(name: str, made: LayerLog, path: Path) -> None:
+    found = made.reading
+    header = LogHeader(
+        provenance=Provenance.SIMULATED,
+        source=COMMAND,
+        back_end="simulated rig",
+        period=float(found.time[1] - found.time[0]),
+        seed=f"{SEED} run {RUNS[name]}",
+        notes={"shows": SHOWS.get(name, "Figure 2.G, four weights again and again for an hour")},
+        set_up="layer",
+    )
+    with LogWriter(path, header) as log:
+        for k, event in enumerate(made.names or [""] * found.time.size):
+            log.write(
+                time=round(float(found.time[k]), 6),
+                command=round(float(found.force[k]), 9),
+                layer_counts=int(found.counts[k]),
+                layer=round(float(found.voltage[k]), 6),
+                event=event,
+            )
 
 
 if __name__ == "__main__":

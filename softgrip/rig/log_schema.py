@@ -14,7 +14,7 @@ from softgrip.units import DEG, GRAM_FORCE, MM, PSI, REV, MPa
 
 SCHEMA = "softgrip-log 1"
 
-SetUp = Literal["gripper", "pad"]
+SetUp = Literal["gripper", "pad", "layer"]
 
 COLUMNS = {
     "time": "s",
@@ -37,7 +37,14 @@ PAD_COLUMNS = {
 }
 """Columns of each log of the pad; the command is the force with which something is pressed."""
 
-SET_UPS: Mapping[SetUp, Mapping[str, str]] = {"gripper": COLUMNS, "pad": PAD_COLUMNS}
+LAYER_COLUMNS = {"time": "s", "command": "N", "layer_counts": "count", "layer": "V"}
+"""Columns of each log of the pad's force layer alone; the command is the weight that lies on it."""
+
+SET_UPS: Mapping[SetUp, Mapping[str, str]] = {
+    "gripper": COLUMNS,
+    "pad": PAD_COLUMNS,
+    "layer": LAYER_COLUMNS,
+}
 """Columns by set-up."""
 
 EVENT = "event"
