@@ -92,7 +92,13 @@ def figure_2_i() -> Figure:
             axes.plot(contact_force(float(lift), float(given.contact)), row + shift, "o",
                       color=BLACK, ms=4)  # fmt: skip
         axes.text(0.72, row, name, va="center", ha="right")
-    axes.set(xlabel="friction coefficient", yticks=[], xlim=(0.55, 1.55), ylim=(3.3, -0.5))
+    axes.set(
+        xlabel="friction coefficient",
+        ylabel="object",
+        yticks=[],
+        xlim=(0.55, 1.55),
+        ylim=(3.3, -0.5),
+    )
     axes.legend(loc="lower right", ncols=1, fontsize=8.5)
     return drawn
 

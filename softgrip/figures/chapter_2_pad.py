@@ -83,6 +83,10 @@ def figure_2_13() -> Figure:
         axes.set_title(f"({letter}) {name}, {force:.2f} N", fontsize=9.5)
         axes.set(xticks=[], yticks=[])
         axes.spines[["left", "bottom"]].set_visible(False)
+    for axes in panels[-1]:
+        axes.set_xlabel("along the pad (40 mm)", fontsize=9)
+    for axes in panels[:, 0]:
+        axes.set_ylabel("across (38 mm)", fontsize=9)
     drawn.colorbar(scale, ax=panels, location="bottom", shrink=0.7, aspect=30, label="response")
     return drawn
 
@@ -133,8 +137,8 @@ def figure_2_c() -> Figure:
     caption="Angle of a line contact by the principal axis of the responses, *simulated*. (a) Its "
     "error over the true angle, for a rod of 20 mm through the middle of an ideal pad and 3 mm "
     "beside it, 0.15 N: while the same two elements are felt, the estimate stays and the error "
-    "grows with the angle. (b) The 210 lines of the training log, with rough objects, tilt, noise "
-    "and drift.",
+    "grows with the angle. (b) Those of the 210 lines of the training log that two elements or "
+    "more felt, with rough objects, tilt, noise and drift.",
     alt="Two panels. In the first, both curves are saw-teeth about zero, with peaks up to 26 "
     "degrees through the middle and 21 beside it. In the second, most points lie within fifteen "
     "degrees of the diagonal, many on horizontal rows at 0, 61, 90 and minus 61 degrees, where two "
@@ -159,9 +163,10 @@ def figure_2_d() -> Figure:
     given = log.angles / DEG
     # The estimate nearest to the truth: a line at 89 deg is one at -91 deg.
     found = given + (found - given + 90) % 180 - 90
+    told = np.isfinite(found)  # one element alone has no direction
     lower.plot([-90, 90], [-90, 90], color=GREEN, lw=1)
-    lower.plot(given, found, "o", color=BLUE, ms=3.5, mfc="none")
-    lower.set(xlabel="true angle (deg)", ylabel="estimated (deg)", title="(b) 210 lines")
+    lower.plot(given[told], found[told], "o", color=BLUE, ms=3.5, mfc="none")
+    lower.set(xlabel="true angle (deg)", ylabel="estimated (deg)", title=f"(b) {told.sum()} lines")
     lower.set(xticks=np.arange(-90, 91, 30), yticks=np.arange(-90, 91, 30))
     return drawn
 

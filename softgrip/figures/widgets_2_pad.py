@@ -80,8 +80,10 @@ def draw_elements(axes: Any, responses: Floats, profile: Floats | None = None) -
 
 
 def draw_estimate(axes: Any, responses: Floats, *, line: bool) -> None:
-    """Draw the estimated place as a cross, and the direction of a line through it."""
+    """Draw the estimated place as a cross, and the direction of a line through it, if any."""
     x, y = place(responses, THREE_TWO_THREE) / MM
+    if not np.isfinite(x):
+        return
     axes.plot(x, y, "x", color=BLUE, ms=8, mew=2)
     angle = float(line_angle(responses, THREE_TWO_THREE))
     if line and np.isfinite(angle):

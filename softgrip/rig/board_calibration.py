@@ -10,7 +10,7 @@ from scipy.stats import linregress
 
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.materials.arrays import Floats
-from softgrip.provenance import describe
+from softgrip.provenance import Provenance, describe
 from softgrip.rig.board_errors import WrongBoardError
 from softgrip.rig.parameters import SensorParameters
 
@@ -130,10 +130,18 @@ def nominal(fingers: int = 1, sensors: SensorParameters | None = None) -> BoardC
     return BoardCalibration(ANY_BOARD, line(known.pressure_range), angles, "nominal")
 
 
-def save(calibration: BoardCalibration, path: Path | str, source: str) -> None:
-    """Write a calibration as a small text file; `source` says in one line how it was measured."""
+def save(
+    calibration: BoardCalibration,
+    path: Path | str,
+    source: str,
+    provenance: Provenance = Provenance.LOGGED,
+) -> None:
+    """Write a calibration as a small text file; `source` says in one line how it was measured.
+
+    What was read on a simulated rig or an emulated board is of the provenance simulated.
+    """
     with Path(path).open("x", encoding="utf-8", newline="") as out:
-        out.write(f"# provenance: logged\n# source: {source}\n# board: {calibration.board}\n")
+        out.write(f"# provenance: {provenance}\n# source: {source}\n# board: {calibration.board}\n")
         table = csv.writer(out, lineterminator="\n")
         table.writerow(COLUMNS)
         named = [("pressure [Pa]", calibration.pressure)]

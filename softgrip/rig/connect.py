@@ -22,6 +22,7 @@ def connect(
     period: float = TELEMETRY_PERIOD,
     calibration: Path | str | None = None,
     seed: int = 0,
+    emulated: bool = False,
 ) -> Connection:
     """Return a rig to drive, replayed, simulated or real.
 
@@ -37,6 +38,8 @@ def connect(
         File of `board_calibration`, for a board; None for the data sheets' lines.
     seed
         Of chance, for a simulated rig.
+    emulated
+        Whether what answers on a port is an emulated board: its logs are then called simulated.
 
     Raises
     ------
@@ -63,4 +66,4 @@ def connect(
         print(f"found {found}", file=sys.stderr)
         where = found.port
     lines = None if calibration is None else load(calibration)
-    return Rig(where, fingers=fingers, period=period, calibration=lines)
+    return Rig(where, fingers=fingers, period=period, calibration=lines, emulated=emulated)

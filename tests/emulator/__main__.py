@@ -7,7 +7,7 @@ from tests.emulator.terminal import Terminal
 
 if __name__ == "__main__":
     with Terminal(EmulatedRig()) as port:
-        print(f"a simulated rig on an emulated board listens on {port}; end it with Ctrl-C")
+        print(f"connect({port!r}, emulated=True) drives a simulated rig; end this with Ctrl-C")
         try:
             while True:
                 time.sleep(1)

@@ -40,4 +40,6 @@ class Terminal:
             if ahead <= 0:
                 time.sleep(0.001)
             elif data := self._link.read(min(ahead, 0.005)):
-                os.write(self._host, data)
+                # A port that nobody reads loses what does not fit, as a serial line does.
+                with contextlib.suppress(BlockingIOError):
+                    os.write(self._host, data)

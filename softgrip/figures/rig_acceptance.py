@@ -1,0 +1,67 @@
+"""The bands of acceptance as a table, and the calibration of a sensor as a picture."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+
+from softgrip.figures.style import GREY, LUDWICK, MEASURED, WIDTH, style
+from softgrip.rig.acceptance import Experiment, judge
+from softgrip.rig.board_calibration import SensorLine
+from softgrip.rig.log_reader import read_log
+
+
+def _number(value: float) -> str:
+    return f"{value:.3g}" if np.isfinite(value) else "never"
+
+
+def bands_table(logs: Mapping[Experiment, Path | str]) -> pd.DataFrame:
+    """Tabulate each band of each log's experiment, pass or fail.
+
+    Parameters
+    ----------
+    logs
+        Of steps, by experiment.
+    """
+    return pd.DataFrame(
+        {
+            "experiment": f"{experiment}, {read_log(path).header.provenance}",
+            "quantity": band.quantity,
+            "band": f"{band.low:.3g} to {band.high:.3g} {band.unit} ({band.place})",
+            "found": _number(band.found),
+            "verdict": "pass" if band.passed else "**fail**",
+        }
+        for experiment, path in logs.items()
+        for band in judge(path, experiment)
+    )
+
+
+def draw_calibration(
+    counts: ArrayLike, known: ArrayLike, line: SensorLine, *, unit: str, factor: float
+) -> Figure:
+    """Draw pairs, their line, and below what the line leaves over.
+
+    Parameters
+    ----------
+    counts, known, line
+        As of `fit_sensor`.
+    unit, factor
+        For the axes: values are multiplied by the factor.
+    """
+    x, y = np.asarray(counts, dtype=np.float64), np.asarray(known, dtype=np.float64)
+    with style():
+        drawn = Figure(figsize=(WIDTH, 3.6))
+        above, below = drawn.subplots(2, 1, sharex=True, height_ratios=(2, 1))
+        ends = np.array([x.min(), x.max()])
+        above.plot(ends, factor * line.value(ends), color=LUDWICK, label="line")
+        above.plot(x, factor * y, "o", color=MEASURED, label="readings")
+        above.set(ylabel=unit)
+        above.legend(loc="upper left")
+        below.plot(x, factor * (y - line.value(x)), "o", color=MEASURED)
+        below.axhline(0, color=GREY, lw=1)
+        below.set(xlabel="counts of the converter", ylabel=f"left over ({unit})")
+        drawn.align_ylabels()
+    return drawn

@@ -1,0 +1,109 @@
+"""Tables of the protocol page, made from the table that host and firmware share."""
+
+from enum import IntEnum, IntFlag
+from struct import calcsize
+
+import pandas as pd
+
+from softgrip.figures.verdicts import Markdown
+from softgrip.rig.firmware.header import TYPES
+from softgrip.rig.framing import LARGEST
+from softgrip.rig.message import Message
+from softgrip.rig.protocol import BAUD, MESSAGES, PROTOCOL_VERSION, TABLE, TELEMETRY
+
+FRAME = 2 + 2 + 1 + 1
+"""Bytes of a frame beside its payload: id, number; CRC; the byte of COBS; the 0 at the end."""
+HOST_IDS = 128
+"""The host's messages have ids below."""
+
+
+def as_markdown(frame: pd.DataFrame) -> Markdown:
+    """Return a table as Markdown, which a page and a notebook both set; cells may hold Markdown."""
+    rows = [map(str, frame.columns), ["---"] * frame.shape[1]]
+    rows += [(str(cell) for cell in row) for row in frame.itertuples(index=False)]
+    text = "\n".join("| " + " | ".join(row) + " |" for row in rows)
+    return Markdown(text)
+
+
+def message_table() -> pd.DataFrame:
+    """Tabulate all messages: who says them, and how long they are on the line."""
+    return pd.DataFrame(
+        {
+            "message": f"`{one.name.upper()}`",
+            "id": one.id,
+            "from": "host" if one.id < HOST_IDS else "board",
+            "payload (bytes)": one.layout.size,
+            "frame (bytes)": one.layout.size + FRAME,
+            "what it does": one.words,
+        }
+        for one in MESSAGES
+    )
+
+
+def field_table(message: Message) -> pd.DataFrame:
+    """Tabulate the fields of a message in their order on the line."""
+    rows, offset = [], 0
+    for field in message.fields:
+        rows.append(
+            {
+                "byte": offset,
+                "field": f"`{field.name}`",
+                "type": TYPES[field.code].removesuffix("_t")
+                + (f"[{field.count}]" if field.count > 1 else ""),
+                "unit": field.unit,
+                "what": field.words,
+            }
+        )
+        offset += calcsize(f"<{field.count}{field.code}")
+    return pd.DataFrame(rows, columns=["byte", "field", "type", "unit", "what"])
+
+
+def all_fields() -> Markdown:
+    """Return the fields of each message that has any, under its name."""
+    parts = [
+        f"**`{one.name.upper()}`** ({one.id}). {one.words}\n\n{as_markdown(field_table(one)).text}"
+        for one in MESSAGES
+        if one.fields
+    ]
+    return Markdown("\n\n".join(parts))
+
+
+def bit_table(flags: type[IntFlag]) -> pd.DataFrame:
+    """Tabulate the bits of flags."""
+    return pd.DataFrame(
+        {"bit": one.bit_length() - 1, "name": (one.name or "").lower().replace("_", " ")}
+        for one in flags
+    )
+
+
+def reason_table(reasons: type[IntEnum]) -> pd.DataFrame:
+    """Tabulate the values of an enumeration."""
+    return pd.DataFrame(
+        {"value": int(one), "name": one.name.lower().replace("_", " ")} for one in reasons
+    )
+
+
+def line_table() -> pd.DataFrame:
+    """Tabulate the line: version, rate, and what of it telemetry takes."""
+    rate = BAUD / 10  # a start bit and a stop bit beside the eight
+    frame = TELEMETRY.layout.size + FRAME
+    return pd.DataFrame(
+        {
+            "what": [
+                "protocol version",
+                "checksum of the table",
+                "rate of the line",
+                "longest frame before stuffing",
+                "a telemetry frame takes",
+                "telemetry takes of the line",
+            ],
+            "value": [
+                str(PROTOCOL_VERSION),
+                f"`{TABLE:08x}`",
+                f"{BAUD} baud, 8N1: {rate / 1e3:.0f} kB/s",
+                f"{LARGEST} bytes",
+                f"{frame} bytes, {1e3 * frame / rate:.1f} ms",
+                f"{40 * frame / rate:.0%}",
+            ],
+        }
+    )

@@ -1,0 +1,121 @@
+"""The experiments of the live page: a step and a staircase of Chapter 4, of one moving reference.
+
+The gains are those of `rig.pid_gains`, designed on the simulated rig: on another rig they are a
+first guess, and `python -m softgrip.rig.pid_gains` tells how they were found.
+"""
+
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from softgrip.control.loop import Controller
+from softgrip.control.pid import PERIOD
+from softgrip.materials.arrays import Floats
+from softgrip.rig.staircase import staircase
+from softgrip.units import DEG
+
+STEP = 60 * DEG
+STEP_FOR = 15.0
+"""s."""
+
+
+@dataclass(frozen=True)
+class LiveExperiment:
+    """What is run.
+
+    Attributes
+    ----------
+    name
+        For the log's name.
+    reference
+        rad, shape (N,), a sample each 25 ms.
+    shows
+        In words, for the log.
+    """
+
+    name: str
+    reference: Floats
+    shows: str
+
+    @property
+    def duration(self) -> float:
+        """From the first sample to the last, s."""
+        return (self.reference.size - 1) * PERIOD
+
+    @property
+    def time(self) -> Floats:
+        """Of the samples, s, shape (N,)."""
+        return np.arange(float(self.reference.size)) * PERIOD
+
+    def log_path(self, folder: Path | str) -> Path:
+        """Return a path for a new log, with the name and the time; make its folder."""
+        made = Path(folder)
+        made.mkdir(parents=True, exist_ok=True)
+        return made / f"{self.name}-{datetime.now():%Y-%m-%d-%H%M%S}.csv"
+
+
+def experiments() -> dict[str, LiveExperiment]:
+    """Return the experiments by name.
+
+    Examples
+    --------
+    >>> {name: round(one.duration, 3) for name, one in experiments().items()}
+    {'step': 15.0, 'staircase': 15.575}
+    """
+    step = np.full(round(STEP_FOR / PERIOD) + 1, STEP)
+    found = (
+        LiveExperiment("step", step, "a step to 60 deg; PID designed on Eq. (4.15)"),
+        LiveExperiment(
+            "staircase", staircase(period=PERIOD), "Figure 4.7: staircase; PID of Eq. (4.15)"
+        ),
+    )
+    return {one.name: one for one in found}
+
+
+class MovingReference:
+    """A controller of the mean of the fingers' angles, with a reference that moves.
+
+    Parameters
+    ----------
+    controller
+        Of one angle.
+    samples
+        rad, shape (N,), one a period; after them the last is held.
+    fingers
+        How many follow it.
+
+    Attributes
+    ----------
+    now
+        rad, shape (fingers,): the reference at the end of the period that was last commanded. It
+        is one array, changed in place: `experiment.record` takes references once, and so logs
+        those that move too.
+
+    Examples
+    --------
+    >>> from softgrip.control.pid import PID, Gains
+    >>> moving = MovingReference(PID(Gains(kp=2.0)), [0.0, 0.5], fingers=1)
+    >>> moving.update([[0.0]]).tolist(), moving.now.tolist(), moving.update([[0.0]]).tolist()
+    ([0.0], [0.5], [1.0])
+    """
+
+    def __init__(self, controller: Controller, samples: ArrayLike, fingers: int) -> None:
+        self.controller = controller
+        self._samples = np.asarray(samples, dtype=np.float64)
+        self._sample = 0
+        self.now = np.full(fingers, self._samples[0])
+
+    def _at(self, sample: int) -> float:
+        return float(self._samples[min(sample, self._samples.size - 1)])
+
+    def update(self, measured: ArrayLike) -> Floats:
+        """Return the command, rad/s, shape (runs,); angles in rad, shape (fingers, runs)."""
+        mean = np.asarray(measured, dtype=np.float64).mean(axis=0)
+        reference = np.full(mean.shape, self._at(self._sample))
+        command = np.asarray(self.controller.update(reference, mean))
+        self._sample += 1
+        self.now[:] = self._at(self._sample)
+        return command
