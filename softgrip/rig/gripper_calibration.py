@@ -51,9 +51,16 @@ def push_commands(travel: float, pump: PumpParameters, speed: float = 5 * REV) -
 
 
 def step_identifies(
-    parameters: GripperParameters, travel: float, *, runs: int = 1, seed: int = 0
+    parameters: GripperParameters,
+    travel: float,
+    *,
+    runs: int = 1,
+    seed: int = 0,
+    speed: float = 5 * REV,
 ) -> tuple[Floats, list[list[FingerDynamics]]]:
     """Simulate open-loop steps and identify each finger, without the sensors' noise.
+
+    A push that is slower than the finger identifies nothing, or not in all runs.
 
     Returns
     -------
@@ -61,9 +68,11 @@ def step_identifies(
         Angles at the end, rad, shape (fingers, runs), and the elements, their input in rad/s,
         ``found[finger][run]``.
     """
-    commands = push_commands(travel, parameters.pump)
+    commands = push_commands(travel, parameters.pump, speed)
     rig = GripperRig(parameters, runs=runs, seed=seed)
-    run = drive_gripper(rig, CommandSequence(commands), duration=OPEN_LOOP_DURATION)
+    # The six seconds of the fast push, longer by what a slow one takes.
+    duration = OPEN_LOOP_DURATION + PERIOD * (commands.size - 2)
+    run = drive_gripper(rig, CommandSequence(commands), duration=duration)
     angles = run.truth.angle
     logs = GripperLogs(run.time, run.command.T, angles.transpose(2, 1, 0), np.zeros(0), ())
     return angles[-1], each_identified(logs)

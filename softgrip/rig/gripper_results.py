@@ -6,7 +6,13 @@ import numpy as np
 
 from softgrip.control.step_metrics import final_value
 from softgrip.gripper.plant import FingerDynamics
-from softgrip.gripper.uncertainty import excited_band, parameter_bounds
+from softgrip.gripper.uncertainty import (
+    bounding_weight,
+    deviation,
+    excited_band,
+    finger_response,
+    parameter_bounds,
+)
 from softgrip.materials.arrays import Floats
 from softgrip.provenance import data_file
 from softgrip.pump.finger import Finger, swept_volume
@@ -45,6 +51,34 @@ def identified(kind: str) -> list[list[FingerDynamics]]:
 def identified_without_noise() -> list[list[FingerDynamics]]:
     """Return what the runs of the open-loop logs identify without their sensors."""
     return step_identifies(printed_gripper(), TRAVEL, runs=RUNS, seed=SEED)[1]
+
+
+WEIGHED = np.geomspace(0.5, 80, 60)
+"""Frequencies at which weights are compared with deviations, rad/s."""
+
+
+@cache
+def largest_weight(speed: float) -> float | None:
+    """Return the largest W_T of Eq. (6.18) for the left finger, pushed at a motor speed.
+
+    A weight of second order, fitted to the models that the runs identify without noise.
+
+    Parameters
+    ----------
+    speed
+        rad/s, > 0.
+
+    Returns
+    -------
+    float or None
+        A share; None where not every run identifies a model.
+    """
+    _, found = step_identifies(printed_gripper(), TRAVEL, runs=RUNS, seed=SEED, speed=speed)
+    if len(found[0]) < RUNS:
+        return None
+    responses = np.array([finger_response(model, WEIGHED) for model in found[0]])
+    weight = bounding_weight(WEIGHED, deviation(responses, responses.mean(axis=0)))
+    return float(np.abs(weight(1j * WEIGHED)).max())
 
 
 def bounds(found: list[list[FingerDynamics]]) -> Floats:

@@ -31,6 +31,7 @@ from softgrip.rig.gripper_results import (
     bounds,
     identified,
     identified_without_noise,
+    largest_weight,
     logs_of,
     push_response,
     recovery,
@@ -43,7 +44,7 @@ from softgrip.rig.gripper_tests import (
 )
 from softgrip.rig.log_reader import read_log
 from softgrip.rig.simulated_logs import make
-from softgrip.units import DEG
+from softgrip.units import DEG, REV
 
 
 @pytest.mark.parametrize("name", [n for n in GRIPPER_LOGS if n.endswith(("-1", "-7"))])
@@ -199,3 +200,9 @@ def test_half_the_step_changes_the_hardest_blow_by_less_than_two_percent():
     coarse, fine = (grasp(2000.0, "fast push", step=step) for step in (STEP, STEP / 2))
     assert abs(fine.forces - coarse.forces).max() < 0.02 * coarse.forces.max()
     assert abs(fine.place - coarse.place).max() < 3e-5
+
+
+def test_a_slower_push_asks_for_a_larger_weight_until_it_identifies_nothing():
+    fast, slow = largest_weight(5 * REV), largest_weight(0.5 * REV)
+    assert 1.05 < slow / fast < 1.3
+    assert largest_weight(0.1 * REV) is None
