@@ -1,0 +1,76 @@
+"""The chapters' figures from logs of the firmware, emulated, beside those of the simulated rig."""
+
+import numpy as np
+import pytest
+
+from softgrip.figures.exhibit import exhibit
+from softgrip.provenance import data_file
+from softgrip.rig.closed_loop import controller
+from softgrip.rig.closed_loop_logs import STEP
+from softgrip.rig.driver import Rig
+from softgrip.rig.experiment import record
+from softgrip.rig.gripper_control import gripper_controller, own_model, target_angles
+from softgrip.rig.gripper_loop import OnTheMean
+from softgrip.rig.gripper_parameters import printed_gripper
+from softgrip.rig.gripper_rig import PERIOD
+from softgrip.rig.gripper_tests import fingers_of
+from softgrip.rig.log_reader import read_log
+from softgrip.rig.step_log import step_log_figures
+from softgrip.units import DEG
+from tests.emulator.build import needs_emulator
+
+pytestmark = needs_emulator
+
+
+def kept(name):
+    return data_file(f"simulated/{name}.csv").path
+
+
+def apart(first, second):
+    """Root mean square of the difference of the angles of two logs, rad."""
+    one, other = fingers_of(read_log(first)), fingers_of(read_log(second))
+    count = min(one.shape[1], other.shape[1])
+    return np.sqrt(np.mean((one[:, :count] - other[:, :count]) ** 2))
+
+
+def drawn(title, logs):
+    return exhibit(title).make(tuple(logs))
+
+
+@pytest.mark.parametrize(
+    ("title", "name", "kept_logs"),
+    [
+        ("Figure 4.5", "full", ("pid-actuator", "pid-full")),
+        ("Figure 3.12", "lqr fast", ("lqr-printed", "lqr-fast")),
+    ],
+)
+def test_a_step_of_the_finger(title, name, kept_logs, tmp_path):
+    from tests.emulator.emulated_rig import open_rig
+
+    path, (other, own) = tmp_path / "step.csv", map(kept, kept_logs)
+    duration = float(read_log(own)["time"][-1])
+    with open_rig() as rig:
+        rig.home()
+        record(rig, OnTheMean(controller(name), [STEP]), duration, path, references=[STEP])
+    # Two runs of one finger: the sensor's noise, 2 deg, in both, and a start that the board's
+    # acceleration limit and its clock delay by a period or two.
+    assert apart(path, own) < 5 * DEG
+    found, before = step_log_figures(path), step_log_figures(own)
+    assert abs(found.steady_state_error - before.steady_state_error) < 2 * DEG
+    assert drawn(title, (other, path)).axes
+
+
+def test_two_fingers_on_one_pump(tmp_path):
+    from tests.emulator.emulated_rig import EmulatedRig, gripper
+
+    path, targets = tmp_path / "slow.csv", target_angles(own_model())
+    pump = printed_gripper().pump
+    duration = float(read_log(kept("gripper-slow-1"))["time"][-1])
+    with Rig(EmulatedRig(gripper()), fingers=2, period=PERIOD, pump=pump) as rig:
+        rig.home()
+        record(rig, gripper_controller("H 2/s"), duration, path, references=targets)
+    # From run to run the fingers differ too.
+    assert apart(path, kept("gripper-slow-1")) < 6 * DEG
+    others = (kept(f"gripper-{kind}-1") for kind in ("open", "fast", "push"))
+    free, fast, pushed = others
+    assert drawn("Figure 6.7", (free, fast, path, pushed)).axes
