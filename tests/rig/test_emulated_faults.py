@@ -1,0 +1,149 @@
+"""What must be survived between host and board, with the real firmware, emulated."""
+
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from softgrip.rig.board_errors import ConnectionLostError, PortUnavailableError
+from softgrip.rig.driver import Rig
+from softgrip.rig.experiment import record
+from softgrip.rig.log_reader import read_log
+from tests.emulator.build import needs_emulator
+from tests.emulator.emulated_rig import EmulatedRig
+from tests.emulator.terminal import Terminal
+
+pytestmark = needs_emulator
+
+ROOT = Path(__file__).parents[2]
+SILENCE = 0.2
+SPEED = 1.0
+"""rad/s: 127 steps a second, so that the last step tells the end of motion to 8 ms."""
+
+
+class Cable(EmulatedRig):
+    """A line that can be pulled for some seconds; the board's time goes on meanwhile."""
+
+    pulled_at = pulled_until = -1.0
+
+    def pull(self, seconds):
+        self.pulled_at, self.pulled_until = self.now(), self.now() + seconds
+
+    def _check(self):
+        super()._check()
+        if self.now() < self.pulled_until:
+            self.advance(0.01)
+            raise ConnectionLostError("emulated board", "cable pulled")
+
+
+def test_a_cable_pulled_and_put_back(tmp_path):
+    line, path = Cable(), tmp_path / "log.csv"
+
+    class Pulls:
+        count = 0
+
+        def update(self, measured):
+            self.count += 1
+            if self.count == 20:
+                line.pull(1.0)
+            return SPEED
+
+    with Rig(line, emulated=True) as rig:
+        rig.home()
+        line.board.edges()
+        made = record(rig, Pulls(), 3.0, path)
+        steps = np.asarray(line.board.edges()[0])
+    before = steps[steps < line.pulled_until]
+    # The last word of the host may have been a heartbeat just before.
+    assert before[-1] < line.pulled_at + SILENCE + 0.01
+    assert before[-1] > line.pulled_at + SILENCE - 0.075
+    assert steps[-1] > line.pulled_until  # put back, the run went on
+    log = read_log(path)
+    assert len(made.reconnections) == 1
+    assert "found again" in " ".join(words for _, words in log.events)
+    assert (log["time"][-1], log["command"][-1]) == (pytest.approx(3.0, abs=0.03), SPEED)
+
+
+DRIVEN = """
+import sys
+from softgrip.rig.driver import Rig
+from softgrip.rig.experiment import record
+
+def say(done, duration):
+    print(done, flush=True)
+
+rig = Rig(sys.argv[1], emulated=True)
+rig.home()
+record(rig, [1.0] * 10_000, 250.0, sys.argv[2], progress=say)
+"""
+
+
+def test_a_killed_host_stops_the_board_and_leaves_a_log_that_lacks_a_second_at_most(tmp_path):
+    path, line = tmp_path / "log.csv", EmulatedRig()
+    with Terminal(line) as port:
+        child = subprocess.Popen(
+            [sys.executable, "-c", DRIVEN, port, str(path)], stdout=subprocess.PIPE, text=True
+        )
+        told = []
+        try:
+            for word in child.stdout:
+                told.append((time.monotonic(), float(word)))
+                if told[-1][0] - told[0][0] > 1.5:
+                    break
+        finally:
+            child.send_signal(signal.SIGKILL)
+            killed = line.now()
+            child.wait()
+            child.stdout.close()
+        # By the board's time, which a busy machine lets pass more slowly.
+        deadline = time.monotonic() + 30
+        while line.now() < killed + SILENCE + 0.3 and time.monotonic() < deadline:
+            time.sleep(0.05)
+    steps = np.asarray(line.board.edges()[0])
+    assert line.now() > killed + SILENCE + 0.2
+    # The emulation runs up to 50 ms behind the clock on a busy machine, and bytes were under way.
+    assert killed - 0.1 < steps[-1] < killed + SILENCE + 0.1
+    log = read_log(path)
+    second_ago = [done for now, done in told if now < told[-1][0] - 1.0]
+    assert len(second_ago) > 5
+    assert log["time"][-1] >= second_ago[-1]
+
+
+FULL_DISK = """
+import resource, sys
+from softgrip.rig.experiment import record
+from tests.emulator.emulated_rig import open_rig
+
+with open_rig() as rig:
+    rig.home()
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
+    begin = rig.line.time
+    made = record(rig, [0.1] * 200, 5.0, sys.argv[1])
+    assert rig.line.time - begin > 4.9
+print(made.samples, made.log_failure)
+"""
+
+
+def test_a_full_disk_ends_the_log_and_not_the_run(tmp_path):
+    path = tmp_path / "log.csv"
+    done = subprocess.run(
+        [sys.executable, "-c", FULL_DISK, str(path)],
+        capture_output=True, text=True, check=True, cwd=ROOT,
+    )  # fmt: skip
+    assert done.stdout.startswith("201 OSError: ")
+    assert done.stderr.count("the run goes on") == 1
+    assert 10 < read_log(path)["time"].size < 100
+
+
+def test_a_second_host_is_refused_and_the_first_goes_on():
+    with Terminal(EmulatedRig()) as port, Rig(port, emulated=True) as first:
+        with pytest.raises(PortUnavailableError, match="another program"):
+            Rig(port, emulated=True)
+        first.home()
+        before = first.line.time
+        first.advance(SPEED)
+        assert first.line.time > before
