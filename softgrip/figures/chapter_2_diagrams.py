@@ -4,26 +4,14 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, FancyArrowPatch, Polygon, Rectangle
-from matplotlib.path import Path
+from matplotlib.patches import Polygon
 
+from softgrip.figures.block_diagram import arrow, block, finish, sum_point, words
 from softgrip.figures.exhibit import figure
 from softgrip.figures.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, WIDTH
 from softgrip.provenance import Provenance
 
 RUBBER = "#E8EEF4"
-
-
-def _arrow(axes: Any, *points: tuple[float, float], colour: str = GREY, style: str = "-|>") -> None:
-    axes.add_patch(
-        FancyArrowPatch(path=Path(points), arrowstyle=style, mutation_scale=10, color=colour,
-                        lw=1.4, fill=False)
-    )  # fmt: skip
-
-
-def _block(axes: Any, x: float, y: float, text: str, colour: str, width: float = 1.5) -> None:
-    axes.add_patch(Rectangle((x - width / 2, y - 0.35), width, 0.7, fc="white", ec=colour, lw=1.4))
-    axes.text(x, y, text, ha="center", va="center", fontsize=9)
 
 
 def _profiles() -> dict[str, Any]:
@@ -58,18 +46,17 @@ def figure_2_4() -> Figure:
         half = {"cylinder": 1.0, "hemisphere": (1 - y**2) ** 0.5, "pyramid": 1 - 0.88 * y}[name]
         axes.plot((middle - half, middle + half), (y, y), color=BLUE, lw=1.8)
         axes.text(middle, y + 0.05, "$A(y)$", color=BLUE, ha="center", va="bottom", fontsize=9)
-        _arrow(axes, (middle, 1.6), (middle, 1.02), colour=VERMILION)
+        arrow(axes, (middle, 1.6), (middle, 1.02), colour=VERMILION)
         axes.text(middle + 0.12, 1.4, "$F$", color=VERMILION)
         axes.text(middle, -0.62, name, ha="center", va="top")
     axes.plot((-1.3, 7.3), (0, 0), color=GREY, lw=1.4)
-    _arrow(axes, (-1.35, 0.0), (-1.35, 1.0), style="<|-|>")
+    arrow(axes, (-1.35, 0.0), (-1.35, 1.0), style="<|-|>")
     axes.text(-1.5, 0.5, "$L$", ha="right", va="center")
-    _arrow(axes, (5.0, -0.25), (7.0, -0.25), style="<|-|>")
+    arrow(axes, (5.0, -0.25), (7.0, -0.25), style="<|-|>")
     axes.text(6, -0.3, "$w$", ha="center", va="top")
-    _arrow(axes, (1.3, 0.0), (1.3, y), style="<|-|>", colour=BLUE)
+    arrow(axes, (1.3, 0.0), (1.3, y), style="<|-|>", colour=BLUE)
     axes.text(1.38, y / 2, "$y$", color=BLUE, va="center")
-    axes.set(xlim=(-1.9, 7.4), ylim=(-1.0, 1.75), aspect="equal")
-    axes.set_axis_off()
+    finish(axes, (-1.9, 7.4), (-1.0, 1.75))
     return drawn
 
 
@@ -88,16 +75,15 @@ def figure_2_6() -> Figure:
     axes = drawn.subplots()
     axes.text(0.75, 0, "$V = [v_1, \\ldots, v_8]^T$\n$0 \\leq v_i \\leq 1$", ha="center",
               va="center", linespacing=1.8)  # fmt: skip
-    _arrow(axes, (1.9, 0), (2.55, 0))
-    _block(axes, 3.35, 0, "classifier", BLUE, 1.6)
+    arrow(axes, (1.9, 0), (2.55, 0))
+    block(axes, 3.35, 0, "classifier", BLUE, width=1.6)
     codes = (("point", "1\\ 0\\ 0", ORANGE), ("line", "0\\ 1\\ 0", GREEN),
              ("surface", "0\\ 0\\ 1", VERMILION))  # fmt: skip
     for row, (kind, code, colour) in enumerate(codes):
         height = 0.8 * (1 - row)
-        _arrow(axes, (4.15, 0.2 * (1 - row)), (5.0, height), colour=colour)
+        arrow(axes, (4.15, 0.2 * (1 - row)), (5.0, height), colour=colour)
         axes.text(5.1, height, f"{kind}: $C_f = [{code}]^T$", va="center", color=BLACK)
-    axes.set(xlim=(-0.5, 7.6), ylim=(-1.2, 1.2), aspect="equal")
-    axes.set_axis_off()
+    finish(axes, (-0.5, 7.6), (-1.2, 1.2))
     return drawn
 
 
@@ -116,24 +102,22 @@ def figure_2_12() -> Figure:
     """Draw the scheme of the force control."""
     drawn = Figure(figsize=(WIDTH, 2.2))
     axes = drawn.subplots()
-    _arrow(axes, (-0.1, 2), (0.6, 2), colour=BLUE)
-    _block(axes, 1.45, 2, "$F_l / 2\\mu$", BLUE, 1.7)
-    _arrow(axes, (2.3, 2), (3.06, 2), colour=BLUE)
-    axes.add_patch(Circle((3.2, 2), 0.14, fc="white", ec=GREY, lw=1.4))
-    _arrow(axes, (3.34, 2), (4.0, 2))
-    _block(axes, 4.5, 2, "PD", BLUE, 1.0)
-    _arrow(axes, (5.0, 2), (5.7, 2))
-    _block(axes, 6.65, 2, "servomotor", GREY, 1.9)
-    _arrow(axes, (7.6, 2), (8.3, 2), (8.3, 0.5), (7.6, 0.5))
-    _block(axes, 6.65, 0.5, "object", GREY, 1.9)
-    _arrow(axes, (5.7, 0.5), (5.0, 0.5))
-    _block(axes, 4.5, 0.5, "pad", GREEN, 1.0)
-    _arrow(axes, (4.0, 0.5), (3.2, 0.5), (3.2, 1.86), colour=GREEN)
-    for x, y, text in (
+    arrow(axes, (-0.1, 2), (0.6, 2), colour=BLUE)
+    block(axes, 1.45, 2, "$F_l / 2\\mu$", BLUE, width=1.7)
+    arrow(axes, (2.3, 2), (3.06, 2), colour=BLUE)
+    sum_point(axes, 3.2, 2)
+    arrow(axes, (3.34, 2), (4.0, 2))
+    block(axes, 4.5, 2, "PD", BLUE, width=1.0)
+    arrow(axes, (5.0, 2), (5.7, 2))
+    block(axes, 6.65, 2, "servomotor", GREY, width=1.9)
+    arrow(axes, (7.6, 2), (8.3, 2), (8.3, 0.5), (7.6, 0.5))
+    block(axes, 6.65, 0.5, "object", GREY, width=1.9)
+    arrow(axes, (5.7, 0.5), (5.0, 0.5))
+    block(axes, 4.5, 0.5, "pad", GREEN, width=1.0)
+    arrow(axes, (4.0, 0.5), (3.2, 0.5), (3.2, 1.86), colour=GREEN)
+    words(axes, (
         (0.15, 2.25, "$F_l$"), (2.65, 2.25, "$F_c$"), (3.65, 2.25, "$e$"), (5.33, 2.25, "$C$"),
         (8.05, 2.25, "$P$"), (3.6, 0.75, "$F_m$"), (3.0, 1.65, "$-$"),
-    ):  # fmt: skip
-        axes.text(x, y, text, ha="center", va="center")
-    axes.set(xlim=(-0.2, 8.5), ylim=(0, 2.6), aspect="equal")
-    axes.set_axis_off()
+    ))  # fmt: skip
+    finish(axes, (-0.2, 8.5), (0, 2.6))
     return drawn
