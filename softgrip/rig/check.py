@@ -1,6 +1,6 @@
 """One look at a rig that moves nothing: line, telemetry, channels, noise, limits."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,8 +9,9 @@ from softgrip.rig.board_errors import BoardError
 from softgrip.rig.connection import Connection
 from softgrip.rig.driver import Rig
 from softgrip.rig.gripper_rig import together
-from softgrip.rig.protocol import TELEMETRY_PERIOD, Flag
-from softgrip.rig.telemetry import in_words
+from softgrip.rig.log_schema import PAD_CHANNELS
+from softgrip.rig.protocol import TELEMETRY_PERIOD, Flag, SetUp
+from softgrip.rig.telemetry import Telemetry, in_words
 from softgrip.units import DEG, MPa
 
 LISTEN = 2.0
@@ -41,19 +42,34 @@ def check(connection: Connection) -> list[Finding]:
     found = [] if board is None else _board(board)
     begin = None if board is None else (board.line.session.link.now(), board.telemetry.number)
     lost = 0 if board is None else board.lost
-    count = max(2, round(LISTEN / connection.period))
-    seen = together([connection.advance(0.0) for _ in range(count)])
+    pad = board if board is not None and board.info.set_up is SetUp.PAD else None
+    if pad is not None:
+        channels = _pad([pad.listen() for _ in range(round(LISTEN / TELEMETRY_PERIOD))])
+    else:
+        count = max(2, round(LISTEN / connection.period))
+        seen = together([connection.advance(0.0) for _ in range(count)])
+        channels = [_channel("pressure", seen.pressure_counts, seen.pressure, 1e-3, "kPa")]
+        for finger in range(connection.fingers):
+            counts, angles = seen.angle_counts[:, finger], seen.angle[:, finger]
+            channels.append(_channel(f"angle {finger + 1}", counts, angles, 1 / DEG, "deg"))
     if board is not None and begin is not None:
         frames = (board.telemetry.number - begin[1]) % 65536
         rate = frames / (board.line.session.link.now() - begin[0])
         good = abs(rate * TELEMETRY_PERIOD - 1) < RATE_WITHIN and board.lost == lost
         words = f"{rate:.2f} Hz, {board.lost - lost} of {frames} frames lost"
         found.append(Finding("telemetry", good, words))
-    found.append(_channel("pressure", seen.pressure_counts, seen.pressure, 1e-3, "kPa"))
-    for finger in range(connection.fingers):
-        counts, angles = seen.angle_counts[:, finger], seen.angle[:, finger]
-        found.append(_channel(f"angle {finger + 1}", counts, angles, 1 / DEG, "deg"))
-    return found
+    return found + channels
+
+
+def _pad(told: Sequence[Telemetry]) -> list[Finding]:
+    counts = np.array([frame.channels[: len(PAD_CHANNELS)] for frame in told])
+    return [
+        # An amplifier at an end of its range says nothing, whatever touches the pad.
+        Finding(
+            name, bool(raw.min() > 0 and raw.max() < 1023), f"counts {raw.min()} to {raw.max()}"
+        )
+        for name, raw in zip(PAD_CHANNELS, counts.T, strict=True)
+    ]
 
 
 def _board(rig: Rig) -> list[Finding]:

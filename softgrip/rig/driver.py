@@ -18,6 +18,7 @@ from softgrip.rig.log_schema import LogHeader
 from softgrip.rig.parameters import PumpParameters
 from softgrip.rig.protocol import CHANNELS, PROTOCOL_VERSION, TELEMETRY_PERIOD
 from softgrip.rig.sensors import Measurement
+from softgrip.rig.telemetry import Telemetry
 
 PRESSURE, FLEX = CHANNELS.index("pressure"), CHANNELS.index("flex_1")
 
@@ -98,6 +99,11 @@ class Rig(BoardCommands):
             lambda: self.line.time >= until, self.period + HUNG_AFTER, "telemetry"
         )
         return self.measure()
+
+    def listen(self) -> Telemetry:
+        """Wait for the next telemetry frame and return it: all channels, in counts."""
+        self.line.wait_for(lambda _: True, HUNG_AFTER, "telemetry")
+        return self.telemetry
 
     def take_event(self) -> str:
         """Return words on what happened since the last call, lost telemetry included."""
