@@ -16,14 +16,14 @@ from softgrip.figures.style import (
     VERMILION,
     WIDTH,
 )
-from softgrip.gripper.gripper_loop import GripperRun, run_gripper
-from softgrip.gripper.internal_model import InternalModelController, controller_matrices
+from softgrip.gripper.internal_model import controller_matrices
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.loop_shaping import fit_roll_off
 from softgrip.gripper.plant import PRINTED as GRIPPER
-from softgrip.gripper.reach import outside_share, project
+from softgrip.gripper.printed_loop import FILTERS, FINE, crossover, equal_targets, run_printed
+from softgrip.gripper.reach import outside_share
 from softgrip.gripper.robustness import box, sampled_stability
-from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
+from softgrip.gripper.shaping_filter import FAST, filter_state_space
 from softgrip.gripper.synchronization import synchronization_error
 from softgrip.provenance import Provenance
 from softgrip.units import DEG
@@ -31,38 +31,11 @@ from softgrip.units import DEG
 SPA = (BLUE, GREEN)
 """Colours of the two fingers: the text draws the first one blue, the second one green."""
 
-FILTERS = {"4.8/s": (4.8, FAST), "2/s": (2.0, SLOW)}
-"""The printed filters by their target loops."""
-
 COMPARED = np.geomspace(0.1, 100, 200)
 """Frequencies at which filters are compared, rad/s."""
 
-FINE = 0.005
-"""Period that stands for continuous time, s: the filter's fastest pole is at 260 rad/s."""
-
 PUSH, PUSHED = 0.2, (1.4, 2.4)
 """Push on the left finger [rad] and from when to when [s]; only the start is printed."""
-
-
-def targets(angle: float = np.pi / 3) -> Any:
-    """Return proj(Y_d) for equal angles of both fingers [rad]."""
-    return project(GRIPPER, [angle, angle]).reached
-
-
-def run(
-    *, period: float = 0.1, duration: float = 5.0, printed: Any = FAST, angle: float = np.pi / 3,
-    **conditions: Any,
-) -> GripperRun:  # fmt: skip
-    """Run the printed controller on the printed fingers."""
-    controller = InternalModelController(
-        GRIPPER,
-        targets(angle),
-        mean_inverse(GRIPPER),
-        filter_state_space(*printed),
-        period=period,
-    )
-    points = max(round(period / FINE), 1)
-    return run_gripper(GRIPPER, controller, duration=duration, points=points, **conditions)
 
 
 def push(time: float) -> tuple[float, float]:
@@ -87,12 +60,12 @@ def figure_6_6() -> Figure:
     drawn = Figure(figsize=(WIDTH, 6.0))
     panels = drawn.subplots(3, 1, sharex=True, sharey=True)
     runs = {
-        "(a) nominal": run(period=FINE),
-        "(b) sensor noise": run(noise=2 * DEG),
-        "(c) push on the left finger": run(push=push),
+        "(a) nominal": run_printed(period=FINE),
+        "(b) sensor noise": run_printed(noise=2 * DEG),
+        "(c) push on the left finger": run_printed(push=push),
     }
     for axes, (title, found) in zip(panels, runs.items(), strict=True):
-        for k, goal in enumerate(targets()):
+        for k, goal in enumerate(equal_targets()):
             axes.plot(found.time, found.angles[k] / DEG, color=SPA[k], label=f"SPA {k + 1}")
             axes.axhline(goal / DEG, color=PRINTED, ls="--", lw=1)
         axes.set(title=title, ylabel="angle (deg)", xlim=(0, 5), ylim=(0, 80))
@@ -120,15 +93,15 @@ def figure_6_a() -> Figure:
     frequency = np.geomspace(0.05, 100, 300)
     for goal, words, colour, dash in (
         (np.ones(2), "equal angles", VERMILION, "-"),
-        (targets(), "proj(Y_d)", BLUE, "--"),
+        (equal_targets(), "proj(Y_d)", BLUE, "--"),
     ):
         share = 100 * outside_share(GRIPPER, goal, frequency)
         upper.semilogx(frequency, share, color=colour, ls=dash, label=words)
     upper.set(title="(a)", xlabel="frequency (rad/s)", ylabel="outside Im P (%)", ylim=(0, 10))
     upper.legend(loc="center left")
-    for (name, (_, printed)), colour in zip(FILTERS.items(), (BLUE, ORANGE), strict=True):
-        found = run(period=FINE, printed=printed)
-        apart = synchronization_error(found.angles, targets()) / DEG
+    for name, colour in zip(FILTERS, (BLUE, ORANGE), strict=True):
+        found = run_printed(name, period=FINE)
+        apart = synchronization_error(found.angles, equal_targets()) / DEG
         lower.plot(found.time, apart, color=colour, label=f"H for {name}")
     lower.axhline(2, color=GREY, ls=":")
     lower.set(title="(b)", xlabel="time (s)", ylabel="apart (deg)", xlim=(0, 4), ylim=(0, None))
@@ -149,9 +122,9 @@ def figure_6_b() -> Figure:
     """Draw the gain of the printed and the re-derived filters."""
     drawn = Figure(figsize=(WIDTH, 3.4))
     axes = drawn.subplots()
-    for (name, (crossover, printed)), colour in zip(FILTERS.items(), (BLUE, ORANGE), strict=True):
+    for (name, printed), colour in zip(FILTERS.items(), (BLUE, ORANGE), strict=True):
         low_pass = filter_state_space(*printed)
-        _, ours = fit_roll_off(crossover, low_pass, COMPARED)
+        _, ours = fit_roll_off(crossover(name), low_pass, COMPARED)
         for system, dash, whose in ((low_pass, "-", "printed"), (ours.complementary, "--", "ours")):
             gain = np.abs(system(1j * COMPARED)).ravel()
             axes.loglog(COMPARED, gain, color=colour, ls=dash, label=f"{name}, {whose}")

@@ -7,13 +7,14 @@ import pandas as pd
 
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.step_metrics import settling_time
-from softgrip.figures.chapter_6 import COMPARED, FILTERS, FINE, run, targets
+from softgrip.figures.chapter_6 import COMPARED
 from softgrip.figures.exhibit import table
 from softgrip.gripper.gripper_loop import run_gripper
 from softgrip.gripper.internal_model import InternalModelController, controller_matrices
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.loop_shaping import fit_roll_off, magnitude_gap
 from softgrip.gripper.plant import PRINTED as GRIPPER
+from softgrip.gripper.printed_loop import FILTERS, FINE, crossover, equal_targets, run_printed
 from softgrip.gripper.reach import project
 from softgrip.gripper.robustness import (
     box,
@@ -67,12 +68,12 @@ def table_6_a() -> pd.DataFrame:
 def table_6_b() -> pd.DataFrame:
     """Tabulate the filters."""
     columns = {}
-    for name, (crossover, printed) in FILTERS.items():
+    for name, printed in FILTERS.items():
         low_pass = filter_state_space(*printed)
         (damping, stiffness), slack = plant_inside(*printed), rounding_margin(*printed)
         s = 1e-4j
         loop = low_pass(s).item() / (1 - low_pass(s).item())
-        roll_off, ours = fit_roll_off(crossover, low_pass, COMPARED)
+        roll_off, ours = fit_roll_off(crossover(name), low_pass, COMPARED)
         gap = np.abs(magnitude_gap(ours.complementary, low_pass, COMPARED))
         inside = gap[bandwidth(low_pass) > COMPARED]
         columns[name] = {
@@ -108,13 +109,13 @@ def table_6_c() -> pd.DataFrame:
         ("2/s", np.pi / 4, "1.1"),
     ):
         for period in (FINE, 0.1):
-            found = run(period=period, printed=FILTERS[name][1], angle=angle)
+            found = run_printed(name, period=period, angle=angle)
             row = {"H": name, "step": f"{angle / DEG:.0f} deg", "period (s)": f"{period:g}"}
             for words, band in CRITERIA.items():
                 settled = settling_time(
                     found.time,
                     found.angles,
-                    final=targets(angle),
+                    final=equal_targets(angle),
                     band=band,
                     absolute="deg" in words,
                 )
@@ -134,8 +135,8 @@ def table_6_c() -> pd.DataFrame:
 def table_6_d() -> pd.DataFrame:
     """Tabulate what the motor's limit does."""
     rows = []
-    for name, (_, printed) in FILTERS.items():
-        free = run(printed=printed, duration=8.0)
+    for name, printed in FILTERS.items():
+        free = run_printed(name, duration=8.0)
         for unit, limit in (("rad/s", SPEED_LIMIT), ("rev/s", SPEED_LIMIT / REV)):
             row = {
                 "H": name,
@@ -147,13 +148,13 @@ def table_6_d() -> pd.DataFrame:
             for words, known in (("model knows", limit), ("model does not", np.inf)):
                 controller = InternalModelController(
                     GRIPPER,
-                    targets(),
+                    equal_targets(),
                     mean_inverse(GRIPPER),
                     filter_state_space(*printed),
                     limit=known,
                 )
                 found = run_gripper(GRIPPER, controller, duration=8.0, limit=limit, points=1)
-                row[f"end, {words}"] = f"{found.angles[0, -1] / targets()[0]:.2f}"
+                row[f"end, {words}"] = f"{found.angles[0, -1] / equal_targets()[0]:.2f}"
             rows.append(row)
     return pd.DataFrame(rows)
 
@@ -178,7 +179,7 @@ def table_6_g() -> pd.DataFrame:
         ]
     )
     rows, even = [], np.ones((2, 1))
-    for name, (_, printed) in FILTERS.items():
+    for name, printed in FILTERS.items():
         low_pass = filter_state_space(*printed)
         at = (GRIPPER, inverse, low_pass)
         matrices = controller_matrices(*at)

@@ -1,29 +1,22 @@
-"""Recomputation of the numbers printed in Chapter 6."""
+"""Recomputation of the numbers printed in Chapter 6, on its linear model."""
 
 from functools import cache
-from typing import Any
 
 import control
 import numpy as np
 
 from softgrip.control.step_metrics import settling_time
-from softgrip.gripper.gripper_loop import GripperRun, noise_gain, run_gripper
-from softgrip.gripper.internal_model import InternalModelController, controller_matrices
+from softgrip.gripper.gripper_loop import GripperRun, noise_gain
+from softgrip.gripper.internal_model import controller_matrices
 from softgrip.gripper.inversion import mean_inverse, moore_penrose_inverse
 from softgrip.gripper.loop_shaping import fit_roll_off
 from softgrip.gripper.plant import PRINTED
+from softgrip.gripper.printed_loop import FILTERS, FINE, crossover, equal_targets, run_printed
 from softgrip.gripper.reach import direction, project
-from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
+from softgrip.gripper.shaping_filter import FAST, filter_state_space
 from softgrip.gripper.synchronization import synchronization_error
-from softgrip.ledger.verdict import simulated
-from softgrip.materials.arrays import Floats
 from softgrip.materials.table import material
-from softgrip.rig import gripper_comparison, gripper_results, gripper_speed
-from softgrip.units import DEG, ML, REV, MPa
-
-FILTERS = {"4.8/s": FAST, "2/s": SLOW}
-SIDE = {"left": 0, "right": 1}
-PARAMETER = {"damping": 0, "stiffness": 1}
+from softgrip.units import DEG, REV, MPa
 
 
 def projection(spa: str, share: float = 0.333, digits: int | None = None) -> float:
@@ -93,7 +86,7 @@ def shaped(target: str, poles: int = 2) -> control.StateSpace:
     """Return the re-derived H for a target loop, compared from 0.1 to 100 rad/s."""
     low_pass = filter_state_space(*FILTERS[target])
     at = np.geomspace(0.1, 100, 200)
-    return fit_roll_off(float(target[:-2]), low_pass, at, order=poles)[1].complementary
+    return fit_roll_off(crossover(target), low_pass, at, order=poles)[1].complementary
 
 
 def gain_at_rest(target: str) -> float:
@@ -116,9 +109,9 @@ def linear_range_degrees() -> float:
     return float(4 * np.pi / 9 / DEG)
 
 
-def step(target: str = "4.8/s", share: float = 0.333, period: float = 0.005) -> GripperRun:
+def step(target: str = "4.8/s", share: float = 0.333, period: float = FINE) -> GripperRun:
     """Run the printed controller on the printed plant for 4 s; 5 ms stand for no sampling."""
-    return run(period=period, printed=FILTERS[target], angle=share * np.pi)
+    return run_printed(target, period=period, angle=share * np.pi, duration=4.0)
 
 
 def settling(
@@ -126,21 +119,23 @@ def settling(
 ) -> float:
     """Return the settling time of both fingers, or of one, in s; ``band`` is a share."""
     found = step(target, share)
-    times = settling_time(found.time, found.angles, final=targets(share), band=band)
+    times = settling_time(found.time, found.angles, final=equal_targets(share * np.pi), band=band)
     return float(times[int(spa) - 1] if spa else times.max())
 
 
 def tracking_error(after: float) -> float:
     """Return the largest error from proj(Y_d) after a time [s], in deg."""
     found = step()
-    error = np.abs(found.angles - targets(0.333)[:, None]) / DEG
+    error = np.abs(found.angles - equal_targets(0.333 * np.pi)[:, None]) / DEG
     return float(error[:, found.time >= after].max())
 
 
 def push_error(push: float) -> float:
     """Return the largest error when a push [rad] acts on the left finger for 1 s, in rad."""
-    found = run(period=0.1, angle=0.333 * np.pi, push=lambda t: (push * (1.4 <= t < 2.4), 0.0))
-    error = np.abs(found.angles - targets(0.333)[:, None])
+    found = run_printed(
+        angle=0.333 * np.pi, duration=4.0, push=lambda t: (push * (1.4 <= t < 2.4), 0.0)
+    )
+    error = np.abs(found.angles - equal_targets(0.333 * np.pi)[:, None])
     return float(error[:, found.time >= 1.4].max())
 
 
@@ -163,90 +158,10 @@ def highest_frequency(period: float = 0.1) -> float:
 
 def transient_difference(target: str = "4.8/s") -> float:
     """Return by how much the fingers are apart at most on the way to 45 deg, in deg."""
-    apart = synchronization_error(step(target, 0.25).angles, targets(0.25))
+    apart = synchronization_error(step(target, 0.25).angles, equal_targets(0.25 * np.pi))
     return float(apart.max() / DEG)
 
 
 def outside(right: float) -> float:
     """Return which share of a target (pi/4, right pi/4) is outside the image of P."""
     return project(PRINTED, [np.pi / 4, right * np.pi / 4]).share
-
-
-def targets(share: float) -> Floats:
-    """Return proj(Y_d) for equal angles of share pi, rad."""
-    return project(PRINTED, [share * np.pi] * 2).reached
-
-
-def run(
-    *, period: float, printed: tuple[Any, Any] = FAST, angle: float, **conditions: Any
-) -> GripperRun:
-    """Run the printed controller on the printed plant for 4 s."""
-    goal, low_pass = project(PRINTED, [angle] * 2).reached, filter_state_space(*printed)
-    loop = InternalModelController(PRINTED, goal, mean_inverse(PRINTED), low_pass, period=period)
-    return run_gripper(PRINTED, loop, duration=4.0, points=round(period / 0.005), **conditions)
-
-
-@simulated
-def deviation_of_runs(parameter: str) -> float:
-    """Return the larger of the two fingers' largest deviations over seven logs, in percent."""
-    found = gripper_results.bounds(gripper_results.identified("open"))
-    return float(100 * found[:, PARAMETER[parameter]].max())
-
-
-@simulated
-def excited(kind: str, end: str) -> float:
-    """Return an end of the band in which the command of some logs is excited, rad/s."""
-    return gripper_results.band(kind)[("low", "high").index(end)]
-
-
-@simulated
-def spread_at_rest(speed: float) -> float:
-    """Return the measured standard deviation at rest of the left finger, in deg.
-
-    ``speed`` is one of `gripper_speed.SPEEDS`, rev/s.
-    """
-    found = {spread.speed: spread for spread in gripper_speed.read()}
-    return float(found[speed].measured.std(ddof=1))
-
-
-@simulated
-def angle_at_rest(side: str, kind: str = "open") -> float:
-    """Return the mean of the last second of seven logs of a kind, in deg."""
-    return float(gripper_results.ends(kind)[SIDE[side]] / DEG)
-
-
-@simulated
-def reachable_angle(side: str) -> float:
-    """Return what the simulated gripper's own model can reach of 45 deg, in deg."""
-    return float(gripper_results.desired()[SIDE[side]] / DEG)
-
-
-@simulated
-def settled_on_rig(controller: str, criterion: str = "10 %") -> float:
-    """Return the settling time of both fingers on the simulated gripper, median of 50 runs, s."""
-    return float(np.median(gripper_comparison.judged(controller).settling[criterion]))
-
-
-@simulated
-def tracking_error_on_rig(controller: str) -> float:
-    """Return how far a finger's true end lies from its target, median of 50 runs, in deg."""
-    return float(np.median(gripper_comparison.judged(controller).error)) / DEG
-
-
-@simulated
-def transient_difference_on_rig(controller: str) -> float:
-    """Return the largest difference of the shares of their ways, median of 50 runs, in deg."""
-    return float(np.median(gripper_comparison.judged(controller).synchronization)) / DEG
-
-
-@simulated
-def identified(finger: str, parameter: str) -> float:
-    """Return what the simulated gripper's steps identify, the mean of the runs, SI by mass."""
-    runs = gripper_results.identified("open")[SIDE[finger]]
-    return float(np.mean([getattr(one, parameter) for one in runs]))
-
-
-@simulated
-def volume_of_fingers(count: int, angle: float) -> float:
-    """Return the volume that bends so many fingers by an angle [rad], in mL."""
-    return gripper_results.volume_for(count, angle) / ML

@@ -4,6 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from importlib import import_module
+from pathlib import Path
+from pkgutil import iter_modules
 from typing import Any, TypeVar
 
 from softgrip.errors import DataFileError
@@ -42,6 +44,8 @@ class Entry:
     """Whether the recomputed value is one of the simulated rig."""
     band: tuple[tuple[Any, float], ...] = ()
     """(input, value) over the declared range of an unstated input."""
+    function: str = ""
+    """What recomputed it, with its module; empty if nothing did."""
 
     def record(self) -> dict[str, Any]:
         """Return the entry as plain values, as ``ledger.json`` holds it."""
@@ -64,9 +68,7 @@ class Entry:
             if band
             else None,
             "note": claim.note,
-            "function": f"softgrip.ledger.chapter_{claim.chapter}.{claim.function}"
-            if claim.function
-            else "",
+            "function": self.function,
         }
 
 
@@ -111,14 +113,31 @@ def simulated(function: Function) -> Function:
     return function
 
 
+def _functions(chapter: int) -> dict[str, Callable[..., float]]:
+    """Return what the files ``chapter_N.py`` and ``chapter_N_*.py`` define, by name."""
+    own = f"chapter_{chapter}"
+    files = [module.name for module in iter_modules([str(Path(__file__).parent)])]
+    parts = [
+        import_module(f"softgrip.ledger.{name}")
+        for name in files
+        if name == own or name.startswith(f"{own}_")
+    ]
+    return {
+        name: value
+        for part in parts
+        for name, value in vars(part).items()
+        if getattr(value, "__module__", "") == part.__name__
+    }
+
+
 def _function(claim: Claim) -> Callable[..., float]:
-    module = import_module(f"softgrip.ledger.chapter_{claim.chapter}")
-    try:
-        found: Callable[..., float] = getattr(module, claim.function)
-    except AttributeError:
+    found = _functions(claim.chapter).get(claim.function)
+    if found is None:
         raise DataFileError(
-            claim.id, expected=f"a function of {module.__name__}", got=claim.function
-        ) from None
+            claim.id,
+            expected=f"a function of softgrip.ledger.chapter_{claim.chapter}",
+            got=claim.function,
+        )
     if getattr(found, "simulated", False) and claim.basis == "inputs" and claim.stated:
         raise DataFileError(
             claim.id, expected="a measurement or an assumption, if it is simulated", got="inputs"
@@ -158,7 +177,15 @@ def judge(claim: Claim) -> Entry:
     else:
         verdict = _from_inputs(claim, stated, assumed)
     recomputed = assumed if stated is None or verdict is Verdict.ASSUMED else stated
-    return Entry(claim, recomputed, verdict, assumed, getattr(function, "simulated", False), band)
+    return Entry(
+        claim,
+        recomputed,
+        verdict,
+        assumed,
+        getattr(function, "simulated", False),
+        band,
+        f"{function.__module__}.{function.__name__}",
+    )
 
 
 def ledger(chapter: int | None = None) -> list[Entry]:

@@ -17,6 +17,7 @@ from scipy.special import erf
 
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.plant import PRINTED
+from softgrip.gripper.uncertainty import DAMPING_BOUND, STIFFNESS_BOUND
 from softgrip.rig.calibration import (
     DESIGN_1,
     FULL_ANGLE,
@@ -48,7 +49,6 @@ TRAVEL = 6.94e-3
 """Of the plunger in that step, m: the mean of the two angles is then that of those printed."""
 BOUND_RUNS = 7
 """Runs of which the printed bounds are the largest deviation (assumed)."""
-DAMPING_BOUND, STIFFNESS_BOUND = 0.143, 0.059  # Section 6.4
 VOLUME_SPREAD = 0.03
 """Finger to finger, of the air at rest (assumed)."""
 

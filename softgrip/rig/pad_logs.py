@@ -8,10 +8,11 @@ each, up to its full range; then each row is one settled contact. The event says
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from softgrip.errors import DataFileError
 from softgrip.materials.arrays import Floats
-from softgrip.provenance import Provenance
+from softgrip.provenance import Provenance, data_file
 from softgrip.rig.chance import streams
 from softgrip.rig.log_reader import read_log
 from softgrip.rig.log_schema import PAD_CHANNELS, Log, LogHeader
@@ -154,3 +155,18 @@ def read_contacts(path: Path | str) -> Contacts:
         angles=np.where(kinds == "line", log["contact_angle"][rows], np.nan),
         forces=log["command"][rows],
     )
+
+
+def write_readings(log: str, path: Path | str) -> None:
+    """Write a kept log as a reader would write readings of a pad: volts of each element, the kind.
+
+    Parameters
+    ----------
+    log
+        Below ``data/``.
+    path
+        Of the CSV file; elements ``e1`` to ``e8``, 1 V at rest and 4 V at full range.
+    """
+    felt = read_contacts(data_file(log).path)
+    frame = pd.DataFrame(1 + 3 * felt.responses, columns=[f"e{k + 1}" for k in range(ELEMENTS)])
+    frame.assign(kind=felt.kinds).round(4).to_csv(path, index=False)

@@ -1,7 +1,5 @@
 """Verdicts follow by rule from printed string, stated inputs and named assumptions."""
 
-from types import SimpleNamespace
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -80,8 +78,8 @@ def test_bounds(relation, x, expected):
 
 def test_simulated_value_never_counts_as_coming_from_stated_inputs(monkeypatch):
     monkeypatch.setattr(module, "_function", FIND)
-    chapter = SimpleNamespace(__name__="chapter", value=module.simulated(lambda x: x))
-    monkeypatch.setattr(module, "import_module", lambda name: chapter)
+    functions = {"value": module.simulated(lambda x: x)}
+    monkeypatch.setattr(module, "_functions", lambda chapter: functions)
     assert judge(claim(basis="measurement")).simulated
     with pytest.raises(DataFileError, match="a measurement or an assumption, if it is simulated"):
         judge(claim())
