@@ -1,5 +1,6 @@
 # Every target works as the first command in a fresh clone: what it needs is made first.
-PYTHON ?= python3
+# The environment is made with the Python that PYTHON names, or else with one that works.
+PYTHON ?=
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/ready
@@ -12,16 +13,16 @@ help:  ## list the targets
 	  | awk -F ':.*## ' '{ printf "  make %-10s %s\n", $$1, $$2 }'
 
 $(READY): environment.lock pyproject.toml
-	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
-	  echo "softgrip needs Python 3.11 or newer; $(PYTHON) is $$($(PYTHON) --version 2>&1)." \
-	       "Name another: make PYTHON=python3.12"; exit 1; }
-	@echo "Making $(VENV) from environment.lock: about two minutes and 1.5 GB, once."
-	@if command -v uv >/dev/null; then \
-	  uv venv --quiet --allow-existing --python $(PYTHON) $(VENV) && \
+	@found=$$(.ci/pythons $(PYTHON)) || exit 1; \
+	set -- $$found; python=$$2; \
+	echo "Making $(VENV) from environment.lock with Python $$1, $$python:" \
+	     "about two minutes and 1.5 GB, once."; \
+	if command -v uv >/dev/null; then \
+	  uv venv --quiet --allow-existing --python "$$python" $(VENV) && \
 	  VIRTUAL_ENV=$(VENV) uv pip install --quiet --require-hashes -r environment.lock && \
 	  VIRTUAL_ENV=$(VENV) uv pip install --quiet --no-deps --no-build-isolation -e .; \
 	else \
-	  $(PYTHON) -m venv $(VENV) && \
+	  "$$python" -m venv $(VENV) && \
 	  $(BIN)/python -m pip install --quiet --require-hashes -r environment.lock && \
 	  $(BIN)/python -m pip install --quiet --no-deps --no-build-isolation -e .; \
 	fi

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from softgrip.materials.arrays import Floats
 from softgrip.rig.pad_objects import pad_object
@@ -44,7 +45,7 @@ class PlaceErrors:
         Between a line and its estimate, rad, shape (N,); NaN unless a line is felt by two or more.
     """
 
-    elements: Floats
+    elements: NDArray[np.intp]
     place: Floats
     angle: Floats
 

@@ -6,7 +6,7 @@ Section 2.3 says that places are estimated, not how, nor how well.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from softgrip.materials.arrays import Floats
 from softgrip.tactile.contacts import check_responses
@@ -30,7 +30,7 @@ class Moments(NamedTuple):
         Second moments about it, m^2, shape (..., 2, 2).
     """
 
-    elements: Floats
+    elements: NDArray[np.intp]
     middle: Floats
     spread: Floats
 

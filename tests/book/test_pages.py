@@ -66,6 +66,7 @@ def chapters(html: Path) -> list[Path]:
     return [file for file in html.glob("*.html") if "widget-view+json" in file.read_text()]
 
 
+@pytest.mark.browser
 @pytest.mark.usefixtures("local_scripts")
 def test_no_page_asks_the_network_or_complains(html, browser):
     for file in opened(html):
@@ -75,6 +76,7 @@ def test_no_page_asks_the_network_or_complains(html, browser):
             assert visit.complaints == [], file
 
 
+@pytest.mark.browser
 @pytest.mark.usefixtures("local_scripts")
 def test_equations_are_typeset(html, browser):
     seen = 0
@@ -88,6 +90,7 @@ def test_equations_are_typeset(html, browser):
     assert seen > 10
 
 
+@pytest.mark.browser
 @pytest.mark.usefixtures("local_scripts")
 def test_every_slider_moves_its_picture(html, browser):
     moved = 0
@@ -116,6 +119,7 @@ def picture(box) -> str:
     return visible[0].get_attribute("src") or ""
 
 
+@pytest.mark.browser
 @pytest.mark.parametrize("width", [1280, 400])
 def test_no_page_is_wider_than_the_screen(html, browser, width):
     for file in html.glob("*.html"):
