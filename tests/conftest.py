@@ -1,9 +1,10 @@
-"""What all tests share: where the public tensile tests lie, and the project's root."""
+"""What all tests share: where the public tensile tests lie, the project's root, no deadlines."""
 
 import os
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 collect_ignore = ["bench/elastica_rod.py"]  # runs in an environment of its own
 
@@ -12,6 +13,11 @@ BESIDE = ROOT.parent / "shared" / "materials"
 
 if "SOFTGRIP_MATERIALS_DIR" not in os.environ and BESIDE.is_dir():
     os.environ["SOFTGRIP_MATERIALS_DIR"] = str(BESIDE)
+
+# An example is not judged by the clock: its first call may import or compile, and others may keep
+# the machine busy.
+settings.register_profile("no clock", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("no clock")
 
 
 @pytest.fixture(scope="session")

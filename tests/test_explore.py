@@ -102,7 +102,7 @@ def test_mode_is_that_of_the_environment_unless_given(monkeypatch, variable, mod
 # Static
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=12)
 @given(st.lists(st.integers(2, 3), min_size=1, max_size=3), st.randoms(use_true_random=False))
 def test_every_combination_of_indices_leads_to_its_frame(counts, random):
     sliders = {}

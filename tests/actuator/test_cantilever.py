@@ -64,7 +64,7 @@ def test_linear_cantilever_against_the_published_table(load, shortening, deflect
 
 
 @given(tip_angle=st.floats(0.02, 1.5))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_linear_cantilever_against_elliptic_integrals(tip_angle):
     load, x, y = elastica(tip_angle)
     assert load_number(tip_angle, 1.0) == pytest.approx(load, rel=1e-9)
@@ -74,7 +74,7 @@ def test_linear_cantilever_against_elliptic_integrals(tip_angle):
 
 
 @given(n=powers, tip_angle=st.floats(0.02, 1.5), follower=st.booleans())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_boundary_value_problem_agrees_with_the_quadrature(n, tip_angle, follower):
     tip_angle *= 1.95 if follower else 1.0
     load = load_number(tip_angle, n, follower=follower)
@@ -83,7 +83,7 @@ def test_boundary_value_problem_agrees_with_the_quadrature(n, tip_angle, followe
 
 
 @given(n=powers, load=st.floats(0.01, 10.0), end=st.floats(0.0, 1.5))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_moment_is_that_of_the_lever_arm_everywhere(n, load, end):
     finger = finger_of(n)
     force = force_of(load, finger)
@@ -96,7 +96,7 @@ def test_moment_is_that_of_the_lever_arm_everywhere(n, load, end):
 
 
 @given(n=powers, angle=st.floats(0.01, 5.0))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_tip_moment_bends_an_arc(n, angle):
     finger = finger_of(n)
     moment = stiffness(finger) * (angle / finger.length) ** n

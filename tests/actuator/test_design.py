@@ -62,7 +62,7 @@ def _random_sections(problem, count, seed):
     return Section(*(getattr(drawn, name)[good] for name in DIMENSIONS))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(problems(), st.integers(0, 99))
 def test_no_section_is_better_than_the_certified_one(problem, seed):
     found = certified_design(problem, tolerance=1e-4).certificate
@@ -71,7 +71,7 @@ def test_no_section_is_better_than_the_certified_one(problem, seed):
     assert others.size == 0 or others.max() <= found.upper_bound * (1 + 1e-9)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(problems(), st.integers(0, 99))
 def test_a_bound_holds_in_its_box(problem, seed):
     """The bound of a part of the box against sections drawn within that part."""
@@ -86,7 +86,7 @@ def test_a_bound_holds_in_its_box(problem, seed):
     assert values.max() <= upper_bound(problem, box)[0] * (1 + 1e-12)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(problems())
 def test_objective_falls_with_the_wall_and_grows_with_the_width(problem):
     """What solver and certificate take as proved, by exact derivatives at drawn sections."""
@@ -189,7 +189,7 @@ def test_a_local_peak_is_refuted_and_left():
     assert found.design.objective == pytest.approx(values.max(), rel=1e-5)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(problems())
 def test_rounding_keeps_every_constraint(problem):
     fine = {"top": 2e-4, "bottom": 2e-4, "width": 5e-4, "wall": 2.5e-4}

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from skfem import Basis, ElementHex0, FacetBasis
 
@@ -58,7 +58,6 @@ def test_ends_and_plane_of_symmetry_are_whole():
 
 
 @given(st.lists(st.integers(0, 50), min_size=2, max_size=6, unique=True), st.floats(0.3, 20))
-@settings(deadline=None)
 def test_grid_lines_lie_on_all_breaks_and_no_farther_apart_than_asked(breaks, size):
     lines = grid_lines([float(x) for x in breaks], size)
     assert np.diff(lines).min() > 0

@@ -129,7 +129,7 @@ def test_reference_of_another_length():
         run_loop(StateSpacePlant(INTEGRATOR), PID(Gains(1.0)), np.ones(40), duration=1.0)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(durations=st.lists(st.floats(0, 1), min_size=1, max_size=5), u=st.floats(-10, 10))
 def test_plant_does_not_care_how_a_held_command_is_cut(durations, u):
     system = state_space(SecondOrder(3.0, 0.3))

@@ -38,7 +38,6 @@ def characteristic(finger, weights):
     return np.real(np.poly(loop.poles()))
 
 
-@settings(deadline=None)
 @given(fingers, designs)
 def test_riccati_and_spectral_factor_give_one_polynomial(finger, weights):
     # Coefficients, not poles: those of a double pole are known to half the digits only.
@@ -46,7 +45,6 @@ def test_riccati_and_spectral_factor_give_one_polynomial(finger, weights):
     np.testing.assert_allclose(characteristic(finger, weights), factor, rtol=1e-5)
 
 
-@settings(deadline=None)
 @given(fingers, designs)
 def test_first_gain_is_the_root_of_the_weight(finger, weights):
     # The constant term of phi(s) phi(-s) is K_1^2 = p q_1 / R.
@@ -78,7 +76,6 @@ def test_no_other_gain_costs_less():
     assert all(cost(best * (1 + 0.05 * rng.standard_normal(3))) > least for _ in range(50))
 
 
-@settings(deadline=None)
 @given(fingers, st.floats(0.1, 50))
 def test_a_gain_in_the_input_is_a_larger_p(finger, gain):
     plant = canonical_form(finger)
@@ -108,7 +105,7 @@ def test_a_tenth_of_the_rate_weight_and_a_larger_p_do():
     assert linear_settling_time(FINGER, Weights(30_000.0, (1.0, 0.03, 0.0)), 0.02) < 0.8
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(fingers, designs)
 def test_linear_loop_leaves_no_error(finger, weights):
     assert step_response(finger, weights)[1][-1] == pytest.approx(1, abs=1e-3)

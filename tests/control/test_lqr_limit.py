@@ -23,7 +23,6 @@ ratios = st.floats(0.02, 2)
 powers = st.floats(-2, 6)
 
 
-@settings(deadline=None)
 @given(fingers, powers, ratios)
 def test_where_the_signs_prove_it_a_real_pole_is_above_the_bound(finger, power, q2):
     weights = Weights(10**power, (1.0, q2, 0.0))
@@ -75,7 +74,7 @@ def test_floor_needs_and_has_a_damped_pair(power, damping, frequency, q2):
     assert -pair.real / abs(pair) >= 0.5 - 1e-6
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.floats(-1, 6), st.sampled_from([0.02, 0.05, 0.1]))
 def test_nothing_settles_before_the_floor_and_the_floor_is_above_the_print(power, band):
     weights = Weights(p=10**power)

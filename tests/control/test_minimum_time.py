@@ -68,7 +68,7 @@ def test_settling_is_no_faster_than_reaching_the_band():
     assert farthest(FULL, SPEED_LIMIT, time) >= 0.475
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(kp=st.floats(1, 100), ki=st.floats(0, 3), kd=st.floats(0, 1), step=st.floats(0.1, 3))
 def test_no_pid_settles_before_the_bound(kp, ki, kd, step):
     pid = PID(Gains(kp, ki * kp, kd * kp), limits=(-SPEED_LIMIT, SPEED_LIMIT))
@@ -81,7 +81,6 @@ def test_no_pid_settles_before_the_bound(kp, ki, kd, step):
     assert settled >= bound - 0.025
 
 
-@settings(deadline=None)
 @given(kp=st.floats(1e-2, 1e3), ki=st.floats(1e-2, 1e2), kd=st.floats(1e-2, 1e1))
 def test_sum_of_poles_bounds_the_slowest(kp, ki, kd):
     # The filter's pole only moves to the left, and the others share -2 zeta omega_n.

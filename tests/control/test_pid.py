@@ -3,7 +3,7 @@
 import control
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from softgrip.control.loop import run_loop
@@ -44,7 +44,6 @@ def test_derivative_on_the_measurement_ignores_the_reference():
 gain = st.floats(0, 5)
 
 
-@settings(deadline=None)
 @given(kp=gain, ki=gain, kd=gain, tau=st.floats(0.05, 1), w=st.floats(0.1, 10))
 def test_state_space_has_the_response_of_the_formula(kp, ki, kd, tau, w):
     found = complex(pid_state_space(Gains(kp, ki, kd, tau))(1j * w))

@@ -5,7 +5,7 @@ from itertools import pairwise
 import control
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
@@ -173,7 +173,6 @@ def test_state_space_has_the_poles_and_the_static_gain():
     np.testing.assert_allclose(found, 2.4 * step_response(TIME, 2.86, 0.7), atol=1e-9)
 
 
-@settings(deadline=None)
 @given(frequency=frequencies, damping=dampings, pump=st.floats(1e2, 1e5), s=st.floats(0.1, 30))
 def test_full_model_is_the_product_of_pump_and_finger(frequency, damping, pump, s):
     # Eq. (4.15) without the motor speed, which is the input.

@@ -23,7 +23,7 @@ def inverses(gripper):
     )
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(GRIPPERS, st.floats(0.1, 10), st.floats(-0.5, 3))
 def test_each_is_a_left_inverse(gripper, frequency, decay):
     s = decay + 1j * frequency
@@ -70,7 +70,7 @@ def test_identical_fingers_have_one_inverse():
     assert rows[0] == pytest.approx(rows[2])
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(GRIPPERS, st.floats(0.1, 30), st.sampled_from([FAST, SLOW]))
 def test_filtered_inverse_is_the_product(gripper, frequency, printed):
     low, s = filter_state_space(*printed), 0.3 + 1j * frequency

@@ -86,7 +86,7 @@ def test_a_model_that_does_not_know_the_limit_is_the_command_cut_outside():
     assert np.abs(commands).max() == 1.0
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(
     st.lists(st.tuples(POSITIVE, POSITIVE, POSITIVE), min_size=1, max_size=3),
     st.floats(1e-3, 0.2),
@@ -109,7 +109,7 @@ def test_critical_damping_is_no_special_case():
     assert found.angle[0, 1, 0] == pytest.approx(0.1 * np.exp(-0.1), rel=1e-12)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(
     st.lists(st.tuples(POSITIVE, POSITIVE, POSITIVE), min_size=2, max_size=4),
     st.lists(st.floats(-2, 2), min_size=10, max_size=10),

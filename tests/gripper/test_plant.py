@@ -20,7 +20,7 @@ from softgrip.gripper.plant import (
 FINGERS = st.builds(FingerDynamics, st.floats(0.5, 6), st.floats(0.5, 20), st.floats(0.5, 20))
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.lists(FINGERS, min_size=2, max_size=5), st.floats(0.1, 30))
 def test_both_realizations_have_the_elements_of_eq_6_16(fingers, frequency):
     gripper, s = Gripper(tuple(fingers)), 1j * frequency

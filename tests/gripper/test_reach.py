@@ -19,7 +19,7 @@ FINGERS = st.builds(FingerDynamics, st.floats(1, 4), st.floats(1, 8), st.floats(
 GRIPPERS = st.lists(FINGERS, min_size=2, max_size=5).map(lambda f: Gripper(tuple(f)))
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(GRIPPERS, st.floats(0.1, 20), st.randoms(use_true_random=False))
 def test_projection_is_least_squares(gripper, frequency, random):
     target = np.array([random.uniform(0.1, 1) for _ in gripper.fingers])

@@ -56,7 +56,7 @@ def test_weight_bounds_its_samples_and_is_stable_and_minimum_phase(order):
         assert np.all(np.abs(weight(1j * W)).ravel() <= 1.06 * bound)
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 @given(st.floats(0.05, 0.5), st.floats(1, 5), st.floats(1, 30))
 def test_weight_finds_a_lag_lead_again(low, rise, corner):
     """A bound that is itself the gain of a first-order weight is met exactly."""

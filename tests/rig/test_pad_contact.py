@@ -48,7 +48,7 @@ def test_share_is_that_of_least_energy(name, angle):
     assert (found > 0).sum() >= 2
 
 
-@settings(deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(
     name=st.sampled_from(["egg", "walnut", "small carrot", "tofu", "block 30 mm"]),
     x=st.floats(-10, 10), angle=st.floats(-90, 90), force=st.floats(0.01, 0.5),

@@ -47,7 +47,7 @@ def test_unknown_kind_is_refused():
         one_hot(["point", "edge"])
 
 
-@settings(deadline=None, max_examples=25)
+@settings(max_examples=25)
 @given(st.integers(1, 10), st.integers(0, 1000))
 def test_neighbours_vote_as_counted_by_hand(k, seed):
     x, kinds = felt()

@@ -63,7 +63,7 @@ def test_exact_average_is_that_of_sums_written_out():
     np.testing.assert_allclose(found, expected, rtol=0, atol=ROUNDING * np.ptp(targets))
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(
     seed=st.integers(0, 2**32 - 1),
     count=st.integers(2, 200),

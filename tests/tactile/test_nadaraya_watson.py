@@ -62,7 +62,7 @@ def test_far_from_all_data_it_is_the_nearest_target():
     np.testing.assert_array_equal(found, [left, right])
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(
     seed=st.integers(0, 2**32 - 1),
     bandwidth=st.floats(1e-3, 10),

@@ -30,7 +30,7 @@ def forces_of(channels=1, count=40):
     )
 
 
-@settings(deadline=None, max_examples=10)
+@settings(max_examples=10)
 @given(st.integers(1, 12), st.integers(0, 99))
 def test_it_says_what_the_classifier_of_the_text_says(channels, seed):
     mine, new = kinds_of(channels), kinds_of(channels, 20, seed + 1).voltages

@@ -19,7 +19,7 @@ def readings(count, seed, *, steps):
     return np.round(rng.random((count, 8)) * steps) / steps * touched
 
 
-@settings(deadline=None, max_examples=30)
+@settings(max_examples=30)
 @given(
     st.integers(0, 10_000),
     st.sampled_from([1, 3, 20, 1023, 10**9]),
