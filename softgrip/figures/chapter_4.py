@@ -15,6 +15,7 @@ from softgrip.pump.flow import PARAMETER_SETS
 from softgrip.pump.gas import ATMOSPHERE, capacity
 from softgrip.pump.pressure import pressure
 from softgrip.pump.printed_filter import printed_filter, run_printed
+from softgrip.rig.log_gaps import intervals
 from softgrip.rig.log_pump import pump_of
 from softgrip.rig.log_reader import read_log
 from softgrip.rig.pressure_models import compare, prior, reference_noise
@@ -137,7 +138,8 @@ def figure_4_a() -> Figure:
     log = read_log(hold)
     flow = pump_of(hold, log).displacement * log["command"]
     model = ElastanceModel(log.header.period, reference_noise(), prior(push.capacity))
-    held = estimate(log["pressure"], flow, log["angle"], model)
+    steps = intervals(log["time"], log.header.period)
+    held = estimate(log["pressure"], flow, log["angle"], model, steps=steps)
     _draw_capacity(second, held.time, log["angle"], held.capacity, held.capacity_std, gain)
     first.set(title="pushing", xlabel="time (s)", ylabel="capacity (mL/MPa)", ylim=(0, 2200))
     second.set(title="holding 60 deg", xlabel="time (s)")

@@ -10,6 +10,7 @@ from typing import Literal, TypeVar
 
 from softgrip.errors import InvalidInputError, UnknownNameError
 from softgrip.provenance import DataFile, Provenance, data_file, describe
+from softgrip.rig.log_reader import read_log
 
 Kind = Literal["figure", "table"]
 Make = TypeVar("Make", bound=Callable[..., object])
@@ -32,6 +33,8 @@ class Exhibit:
     """Data that are not files of the project, in words."""
     drawing: bool = False
     """Whether it is a drawing, such as a block diagram, with no numbers to give as CSV."""
+    repairs: tuple[str, ...] = ()
+    """What was mended or is missing in the reader's own logs, one sentence each."""
 
     @property
     def name(self) -> str:
@@ -191,17 +194,27 @@ def exhibit(title: str) -> Exhibit:
 def with_logs(item: Exhibit, logs: Sequence[Path | str]) -> Exhibit:
     """Return an exhibit made from other logs, which are then its data and its provenance.
 
+    It says what the reader of logs mended in them, and where rows are missing.
+
     Raises
     ------
     InvalidInputError
         If the exhibit is not made from logs, or no log is given.
+    DataFileError
+        If a log cannot be read.
     """
     if "logs" not in signature(item.make).parameters or not logs:
         raise InvalidInputError("logs", expected=f"none for {item.title}", got=[*map(str, logs)])
     data = tuple(describe(Path(log)) for log in logs)
     made = partial(item.make, logs=tuple(logs))
     return replace(
-        item, make=update_wrapper(made, item.make), data=data, provenance=data[0].provenance
+        item,
+        make=update_wrapper(made, item.make),
+        data=data,
+        provenance=data[0].provenance,
+        repairs=tuple(
+            f"{Path(log).name}: {words}" for log in logs for words in read_log(log).repairs
+        ),
     )
 
 

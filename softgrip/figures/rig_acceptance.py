@@ -12,14 +12,19 @@ from softgrip.figures.style import GREY, LUDWICK, MEASURED, WIDTH, style
 from softgrip.rig.acceptance import Experiment, judge
 from softgrip.rig.board_calibration import SensorLine
 from softgrip.rig.log_reader import read_log
+from softgrip.rig.log_schema import Log
 
 
 def _number(value: float) -> str:
     return f"{value:.3g}" if np.isfinite(value) else "never"
 
 
+def _told(log: Log) -> str:
+    return "; ".join((str(log.header.provenance), *log.repairs))
+
+
 def bands_table(logs: Mapping[Experiment, Path | str]) -> pd.DataFrame:
-    """Tabulate each band of each log's experiment, pass or fail.
+    """Tabulate each band of each log's experiment, pass or fail, and what was mended in the log.
 
     Parameters
     ----------
@@ -28,7 +33,7 @@ def bands_table(logs: Mapping[Experiment, Path | str]) -> pd.DataFrame:
     """
     return pd.DataFrame(
         {
-            "experiment": f"{experiment}, {read_log(path).header.provenance}",
+            "experiment": f"{experiment}, {_told(read_log(path))}",
             "quantity": band.quantity,
             "band": f"{band.low:.3g} to {band.high:.3g} {band.unit} ({band.place})",
             "found": _number(band.found),

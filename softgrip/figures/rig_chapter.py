@@ -53,8 +53,9 @@ def chapter_figure(title: str, logs: Sequence[Path | str] = ()) -> HTML:
         raise InvalidInputError("title", expected="a figure", got=title)
     words = EMPHASIS.sub(r"<em>\1</em>", html.escape(item.caption))
     files = ", ".join(file.path.name for file in item.data)
+    told = " · ".join([f"data: {files}", *item.repairs])
     text = (
         f"{image(svg(drawn), 'svg+xml', item.alt)}<p>As {item.title}: {words}</p>"
-        f"<p><small>shown: <b>{item.provenance}</b> · data: {html.escape(files)}</small></p>"
+        f"<p><small>shown: <b>{item.provenance}</b> · {html.escape(told)}</small></p>"
     )
     return HTML(text)  # type: ignore[no-untyped-call]

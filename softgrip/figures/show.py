@@ -84,6 +84,7 @@ class Shown:
             f"{origin}",
             f"shown: <b>{item.provenance}</b>",
             *([f"data: {', '.join(files)}"] if files else []),
+            *(html.escape(words) for words in item.repairs),
             f"made in {self.seconds:.1f} s by <code>{item.command}</code>",
         ]
 

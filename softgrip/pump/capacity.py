@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.errors import InvalidInputError
 from softgrip.materials.arrays import Floats, read_only
-from softgrip.pump.checks import record
+from softgrip.pump.checks import check_above_zero, record
 from softgrip.pump.elastance import ElastanceModel, elastance_filter, transitions
 
 
@@ -71,11 +72,19 @@ class CapacityEstimate:
 
 
 def estimate(
-    pressure: ArrayLike, flow: ArrayLike, angle: ArrayLike, model: ElastanceModel
+    pressure: ArrayLike,
+    flow: ArrayLike,
+    angle: ArrayLike,
+    model: ElastanceModel,
+    *,
+    steps: ArrayLike = 1.0,
 ) -> CapacityEstimate:
     """Run the elastance filter over a record.
 
-    The prior of the model holds at the first sample, before its measurement.
+    The prior of the model holds at the first sample, before its measurement. Over missing samples
+    the filter predicts once for each and measures nothing, so that its noises are those of the time
+    that went by; what is missing has no part in the likelihood. (filterpy's `update(None)` would
+    count as a perfect measurement.)
 
     Parameters
     ----------
@@ -88,26 +97,40 @@ def estimate(
         Measured bending angle, rad, shape (N,).
     model
         Time step, noise levels, prior and angle gain.
+    steps
+        Time from each sample to the next in time steps of the model, > 0: a number or shape
+        (N - 1,). At 2 a sample is missing between two. The flow holds, and the angle turns evenly.
 
     Raises
     ------
     InvalidInputError
-        If the shapes differ or a value is not finite.
+        If the shapes differ, a value is not finite, or a step is not above zero.
     """
     measured, pushed, bent = record(at_least=2, pressure=pressure, flow=flow, angle=angle)
     kalman = elastance_filter(model)
-    steps, turns = transitions(pushed, model.time_step), np.diff(bent)
     N = measured.size
+    apart = _steps(steps, N - 1)
+    predictions = np.maximum(np.rint(apart), 1)
+    moves = transitions(pushed[:-1] * (apart / predictions), model.time_step)
+    turns = np.diff(bent) / predictions
     state, covariance = np.empty((N, 2)), np.empty((N, 2, 2))
     innovation, variance = np.empty(N), np.empty(N)
     for k in range(N):
-        if k:
+        for _ in range(int(predictions[k - 1]) if k else 0):
             # A column for the input: with a scalar, filterpy spreads the state into a matrix.
-            kalman.predict(u=turns[k - 1].reshape(1, 1), F=steps[k - 1])
+            kalman.predict(u=turns[k - 1].reshape(1, 1), F=moves[k - 1])
         kalman.update(measured[k])
         state[k], covariance[k] = kalman.x[:, 0], kalman.P
         innovation[k], variance[k] = kalman.y.item(), kalman.S.item()
-    time = np.arange(N) * model.time_step
+    time = np.concatenate([[0.0], np.cumsum(apart)]) * model.time_step
     return CapacityEstimate(
         *(read_only(values) for values in (time, state, covariance, innovation, variance))
     )
+
+
+def _steps(steps: ArrayLike, count: int) -> Floats:
+    found = np.asarray(steps, dtype=np.float64)
+    check_above_zero(steps=found)
+    if found.shape not in ((), (count,)):
+        raise InvalidInputError("steps", expected=f"a number or shape ({count},)", got=found.shape)
+    return np.broadcast_to(found, count)

@@ -84,6 +84,7 @@ def estimate_noise(
     model: ElastanceModel,
     *,
     fit_gain: bool = False,
+    steps: ArrayLike = 1.0,
 ) -> NoiseEstimate:
     """Find the three levels, and the gain if wanted, that make a record's innovations most likely.
 
@@ -98,6 +99,8 @@ def estimate_noise(
         Its noise levels are the first guess and must be above zero; the rest is held.
     fit_gain
         Whether to fit the angle gain too, from that of the model on.
+    steps
+        As for `capacity.estimate`.
 
     Raises
     ------
@@ -123,7 +126,7 @@ def estimate_noise(
         return replace(model, noise=noise, angle_gain=gain)
 
     def cost(x: Floats) -> float:
-        return -estimate(pressure, flow, angle, at(x)).log_likelihood
+        return -estimate(pressure, flow, angle, at(x), steps=steps).log_likelihood
 
     reach = float(np.log(SEARCH_FACTOR))
     bounds = [(-reach, reach)] * 3 + [(None, None)] * fit_gain

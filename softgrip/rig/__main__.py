@@ -10,6 +10,7 @@ from softgrip.rig.acceptance import Experiment, judge, report
 from softgrip.rig.check import run_check
 from softgrip.rig.connect import connect
 from softgrip.rig.find_board import candidates
+from softgrip.rig.log_reader import read_log
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -35,6 +36,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print("\n".join(map(str, seen)) or "no USB port of a known maker")
             return int(not any(candidate.answered for candidate in seen))
         bands = judge(asked.log, asked.experiment)
+        for words in read_log(asked.log).repairs:
+            print(f"note  {words}")
         print(report(bands))
         return int(not all(band.passed for band in bands))
     except (SoftgripError, OSError) as error:

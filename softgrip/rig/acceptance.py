@@ -15,10 +15,11 @@ import numpy as np
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.rig.calibration import FULL_PRESSURE
 from softgrip.rig.gripper_tests import column, fingers_of
+from softgrip.rig.log_gaps import EvenClock, even_clock, refuse_gaps
 from softgrip.rig.log_reader import read_log
 from softgrip.rig.log_schema import Log
 from softgrip.rig.parameters import SensorParameters
-from softgrip.rig.step_log import WINDOW, step_figures
+from softgrip.rig.step_log import AVERAGING, BRIDGED, WINDOW, step_figures
 from softgrip.units import DEG, MPa
 
 Experiment = Literal["lqr", "pid", "gripper"]
@@ -87,11 +88,13 @@ def sensor_bands(log: Log) -> list[Band]:
     ]
 
 
-def finger_bands(log: Log, finger: int, experiment: Experiment) -> list[Band]:
+def finger_bands(log: Log, clock: EvenClock, finger: int, experiment: Experiment) -> list[Band]:
     """Judge the step of one finger, counted from 0; the reference steps at the first sample."""
     time, angle = log["time"] - log["time"][0], log[column("angle", finger)]
     target = float(log[column("reference", finger)][-1])
-    step = step_figures(time, angle, target, about="own end")
+    step = step_figures(
+        clock.lines(time), clock.lines(angle), target, about="own end", measured=clock.measured
+    )
     # The averaging keeps a share 1/n of white noise in the mean that is taken away.
     samples = 2 * round(WINDOW / log.header.period / 2) + 1
     noise = float(step.noise) / sqrt(1 - 1 / samples) / DEG
@@ -133,7 +136,7 @@ def judge(path: Path | str, experiment: Experiment) -> tuple[Band, ...]:
     InvalidInputError
         If there is no such experiment.
     DataFileError
-        If the log cannot be read or has no such reference.
+        If the log cannot be read, has no such reference, or misses too many rows in one place.
     """
     if experiment not in get_args(Experiment):
         raise InvalidInputError(
@@ -144,9 +147,11 @@ def judge(path: Path | str, experiment: Experiment) -> tuple[Band, ...]:
     references = fingers_of(log, "reference")
     if len(references) != fingers or np.ptp(references, axis=1).any():
         raise DataFileError(path, expected="a constant reference for each finger", got="none")
+    refuse_gaps(path, log, AVERAGING, above=BRIDGED * WINDOW)
+    clock = even_clock(log)
     bands = sensor_bands(log)
     for finger in range(fingers):
-        bands += finger_bands(log, finger, experiment)
+        bands += finger_bands(log, clock, finger, experiment)
     return tuple(bands)
 
 

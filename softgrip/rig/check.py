@@ -9,8 +9,10 @@ from softgrip.rig.board_errors import BoardError
 from softgrip.rig.connection import Connection
 from softgrip.rig.driver import Rig
 from softgrip.rig.gripper_rig import together
+from softgrip.rig.log_gaps import find_gaps, places
 from softgrip.rig.log_schema import PAD_CHANNELS
 from softgrip.rig.protocol import TELEMETRY_PERIOD, Flag, SetUp
+from softgrip.rig.replay import ReplayConnection
 from softgrip.rig.telemetry import Telemetry, in_words
 from softgrip.units import DEG, MPa
 
@@ -44,10 +46,12 @@ def check(connection: Connection) -> list[Finding]:
     lost = 0 if board is None else board.lost
     pad = board if board is not None and board.info.set_up is SetUp.PAD else None
     if pad is not None:
-        channels = _pad([pad.listen() for _ in range(round(LISTEN / TELEMETRY_PERIOD))])
+        told = [pad.listen() for _ in range(round(LISTEN / TELEMETRY_PERIOD))]
+        channels, times = _pad(told), np.array([frame.time for frame in told])
     else:
         count = max(2, round(LISTEN / connection.period))
         seen = together([connection.advance(0.0) for _ in range(count)])
+        times = np.asarray(seen.time)
         channels = [_channel("pressure", seen.pressure_counts, seen.pressure, 1e-3, "kPa")]
         for finger in range(connection.fingers):
             counts, angles = seen.angle_counts[:, finger], seen.angle[:, finger]
@@ -58,6 +62,12 @@ def check(connection: Connection) -> list[Finding]:
         good = abs(rate * TELEMETRY_PERIOD - 1) < RATE_WITHIN and board.lost == lost
         words = f"{rate:.2f} Hz, {board.lost - lost} of {frames} frames lost"
         found.append(Finding("telemetry", good, words))
+    if isinstance(connection, ReplayConnection):
+        mended = connection.log.repairs
+        found.append(Finding("log", not mended, "; ".join(mended) or "whole"))
+    else:
+        gaps = find_gaps(times, connection.period if pad is None else TELEMETRY_PERIOD)
+        found.append(Finding("samples", not gaps, places(gaps) or "none missing"))
     return found + channels
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from softgrip.errors import InvalidInputError
 from softgrip.materials.arrays import Floats
 from softgrip.provenance import data_file, data_folder
 from softgrip.rig.force_layer_logs import AGES, SEED, read
@@ -55,8 +56,18 @@ def hour_errors(
         One row a reading: "time", h from the first reading; and the error, N, "without" any
         correction, "repaired" by the line of Section 2.3, and with lines at both ends ("between"),
         which is ours.
+
+    Raises
+    ------
+    InvalidInputError
+        If the hour does not begin and end so: a row is missing there.
     """
     count = len(DRIFT_WEIGHTS)
+    for ends in (force[:count], force[-count:]):
+        if ends.size < count or not np.allclose(ends, np.array(DRIFT_WEIGHTS) * GRAM_FORCE):
+            raise InvalidInputError(
+                "force", expected=f"{DRIFT_WEIGHTS} gf at both ends", got=ends / GRAM_FORCE
+            )
     first = LinearDrift.from_weights(reference, voltage[:count])
     last = LinearDrift.from_weights(reference, voltage[-count:])
     begin, end = time[:count].mean(), time[-count:].mean()

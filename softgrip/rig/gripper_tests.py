@@ -15,7 +15,7 @@ from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.gripper.plant import FingerDynamics, Gripper
 from softgrip.gripper.uncertainty import deviation
 from softgrip.materials.arrays import Floats
-from softgrip.rig.log_reader import read_log
+from softgrip.rig.log_runs import read_alike
 from softgrip.rig.log_schema import Log
 
 
@@ -43,7 +43,7 @@ class GripperLogs:
     Attributes
     ----------
     time
-        s, shape (N,).
+        s, shape (N,), evenly sampled.
     commands
         Motor speed held until each time, rad/s, shape (runs, N).
     angles
@@ -77,17 +77,14 @@ def read_runs(paths: Sequence[Path | str]) -> GripperLogs:
     Raises
     ------
     DataFileError
-        If a log cannot be read, has one finger only, or other times than the first.
+        If a log has one finger only, or as of `read_alike`.
     """
-    logs = [read_log(path) for path in paths]
-    time = logs[0]["time"]
+    logs = read_alike(paths)
     for path, log in zip(paths, logs, strict=True):
-        if log["time"].shape != time.shape or not np.allclose(log["time"], time):
-            raise DataFileError(path, expected=f"the times of {paths[0]}", got="other times")
         if len(fingers_of(log)) < 2:
             raise DataFileError(path, expected="columns angle and angle_2", got="one finger")
     return GripperLogs(
-        time,
+        logs[0]["time"],
         np.stack([log["command"] for log in logs]),
         np.stack([fingers_of(log) for log in logs]),
         fingers_of(logs[0], "reference"),

@@ -16,6 +16,8 @@ from softgrip.provenance import data_file
 from softgrip.pump.flow import flow
 from softgrip.rig.log_pump import pump_of
 from softgrip.rig.log_reader import read_log
+from softgrip.rig.log_runs import read_alike
+from softgrip.rig.push_log import check_start, swept_volume
 
 STEP_LOGS = tuple(f"simulated/step-60-{run}.csv" for run in range(1, 8))
 PUSH_LOG = "simulated/push-a.csv"
@@ -53,17 +55,13 @@ def identify_finger(paths: Sequence[Path]) -> Identified:
     Raises
     ------
     DataFileError
-        If the times of two logs differ.
+        As of `read_alike`.
     InvalidInputError
         If the logs do not determine the model; as of `identify`.
     """
-    logs = [read_log(path) for path in paths]
-    time = logs[0]["time"]
-    for path, log in zip(paths, logs, strict=True):
-        if log["time"].shape != time.shape or not np.allclose(log["time"], time):
-            raise DataFileError(path, expected=f"the times of {paths[0]}", got="other times")
+    logs = read_alike(paths)
     mean = {name: np.mean([log[name] for log in logs], axis=0) for name in ("pressure", "angle")}
-    return identify(time, mean["pressure"], mean["angle"], initial_input=0.0)
+    return identify(logs[0]["time"], mean["pressure"], mean["angle"], initial_input=0.0)
 
 
 def identify_capacity(path: Path, *, below: float = LOW_PRESSURE) -> float:
@@ -81,15 +79,17 @@ def identify_capacity(path: Path, *, below: float = LOW_PRESSURE) -> float:
     Raises
     ------
     DataFileError
-        If the header lacks the pump, or the pressure does not rise.
+        If the header lacks the pump, the pressure does not rise, or gaps or the start of the log
+        leave open what was swept.
     """
     log = read_log(path)
-    swept = np.cumsum(flow(log["command"], pump_of(path, log))) * log.header.period
+    swept = swept_volume(path, log, flow(log["command"], pump_of(path, log)))
     beyond = log["pressure"] > below
     end = int(np.argmax(beyond)) if beyond.any() else beyond.size
     pressure, swept = log["pressure"][:end], swept[:end]
     if not (end >= 8 and swept @ pressure > 0):
         raise DataFileError(path, expected=f"a rise of pressure up to {below:g} Pa", got="none")
+    check_start(path, swept, pressure)
     return float(swept @ swept / (swept @ pressure))
 
 

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import cast
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.provenance import Provenance
+from softgrip.rig.log_gaps import check_period, gaps_of, places
 from softgrip.rig.log_schema import EVENT, KNOWN_UNITS, SCHEMA, Log, LogHeader, SetUp
 
 _NAME = re.compile(r"^(?P<name>[^\[\]]+) \[(?P<unit>[^\[\]]+)\]$")
@@ -91,7 +93,8 @@ def read_log(path: Path | str) -> Log:
     """Read a log.
 
     Mended, and said in `Log.repairs`: a cut last line is left out, as is a last row with a value
-    that is not a number; a row written twice counts once; a known other unit is converted.
+    that is not a number; a row written twice counts once; a known other unit is converted. Missing
+    rows are not put back, but said there too, with their place.
 
     Parameters
     ----------
@@ -102,7 +105,8 @@ def read_log(path: Path | str) -> Log:
     ------
     DataFileError
         If a column is missing, a unit unknown, a row of another width, a value elsewhere not a
-        finite number, or if time runs back. It names the file and, where known, the line.
+        finite number, if time stands or runs back, or if the rows are another time apart than the
+        header says. It names the file and, where known, the line.
     """
     file = Path(path)
     try:
@@ -152,6 +156,9 @@ def read_log(path: Path | str) -> Log:
         if cells[-1]:
             events.append((values[clock], cells[-1]))
     table = np.array(rows, dtype=np.float64).reshape(-1, len(names))
-    return Log(
+    check_period(file, header, table[:, clock])
+    log = Log(
         header, {name: table[:, k] for k, name in enumerate(names)}, tuple(events), tuple(repairs)
     )
+    gaps = gaps_of(log)
+    return replace(log, repairs=(*repairs, places(gaps))) if gaps else log

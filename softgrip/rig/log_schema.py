@@ -86,7 +86,7 @@ class LogHeader:
     seed
         Of chance; empty without.
     period
-        Sampling period, s.
+        Sampling period, s; for rows that no clock gives, the time between the first two.
     notes
         More keys and values, of one line each.
     set_up
@@ -121,6 +121,11 @@ class LogHeader:
             raise InvalidInputError(
                 "notes", expected=f"keys other than {sorted(own)}", got=self.notes
             )
+
+    @property
+    def clocked(self) -> bool:
+        """Whether rows come by a clock; those of the force layer come when a weight lies on it."""
+        return self.set_up != "layer"
 
     @property
     def columns(self) -> Mapping[str, str]:
@@ -159,7 +164,7 @@ class Log:
     events
         (time in s, words), in order.
     repairs
-        What the reader changed, one sentence each; empty if nothing.
+        What the reader changed, or where rows are missing, one sentence each; empty if nothing.
     """
 
     header: LogHeader

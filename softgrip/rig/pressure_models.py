@@ -15,8 +15,10 @@ from softgrip.pump import pressure as law
 from softgrip.pump.capacity import CapacityEstimate, estimate
 from softgrip.pump.elastance import ElastanceModel, NoiseLevels, Prior
 from softgrip.pump.noise import NoiseEstimate, estimate_noise
+from softgrip.rig.log_gaps import intervals
 from softgrip.rig.log_pump import pump_of
 from softgrip.rig.log_reader import read_log
+from softgrip.rig.push_log import check_start, swept_volume
 from softgrip.units import MPa
 
 LOW = 0.03 * MPa
@@ -67,9 +69,10 @@ class PressureComparison:
         return float(relative[np.argmax(np.abs(relative))])
 
 
-def _fit(swept: Floats, pressure: Floats) -> tuple[float, float]:
+def _fit(path: Path | str, swept: Floats, pressure: Floats) -> tuple[float, float]:
     """Return C of Eq. (4.5), fitted below `LOW`, and c of Eq. (4.7), fitted to the whole push."""
     low = pressure < LOW
+    check_start(path, swept[low], pressure[low])
     capacity = float(swept[low] @ swept[low] / (swept[low] @ pressure[low]))
     # The capacity may fall, but not to zero within the push.
     largest = swept[-1] / capacity
@@ -88,9 +91,10 @@ def measure_noise() -> NoiseEstimate:
     path = data_file(REFERENCE).path
     log = read_log(path)
     flow = pump_of(path, log).displacement * log["command"]
-    capacity, _ = _fit(np.cumsum(flow) * log.header.period, log["pressure"])
+    capacity, _ = _fit(path, swept_volume(path, log, flow), log["pressure"])
     model = ElastanceModel(log.header.period, FIRST_GUESS, prior(capacity))
-    return estimate_noise(log["pressure"], flow, log["angle"], model)
+    steps = intervals(log["time"], log.header.period)
+    return estimate_noise(log["pressure"], flow, log["angle"], model, steps=steps)
 
 
 def write_noise() -> None:
@@ -129,7 +133,7 @@ def compare(path: Path | str, *, noise_factor: float = 1.0) -> PressureCompariso
     ------
     DataFileError
         If the log cannot be read, or does not name its pump, or holds no pressure below `LOW`
-        and above `HIGH`.
+        and above `HIGH`, or its gaps or its start leave open what was swept.
     """
     log = read_log(path)
     pump = pump_of(Path(path), log)
@@ -141,19 +145,19 @@ def compare(path: Path | str, *, noise_factor: float = 1.0) -> PressureCompariso
             got=f"{measured.min() / MPa:.3f} to {measured.max() / MPa:.3f} MPa",
         )
     flow = pump.displacement * log["command"]
-    swept = np.cumsum(flow) * log.header.period
-    capacity, growth = _fit(swept, measured)
+    swept, steps = swept_volume(path, log, flow), intervals(time, log.header.period)
+    capacity, growth = _fit(path, swept, measured)
     levels = reference_noise()
     noise = NoiseLevels(levels.pressure_step, levels.elastance_step * noise_factor, levels.sensor)
     model = ElastanceModel(log.header.period, noise, prior(capacity))
-    estimated = estimate(measured, flow, log["angle"], model)
-    steps = flow[:-1] * log.header.period * estimated.elastance[:-1]
+    estimated = estimate(measured, flow, log["angle"], model, steps=steps)
+    rises = flow[:-1] * steps * log.header.period * estimated.elastance[:-1]
     return PressureComparison(
         time,
         measured,
         constant=swept / capacity,
         modified=law.modified_pressure(swept, 1.0, capacity, growth),
-        filtered=measured[0] + np.concatenate([[0.0], np.cumsum(steps)]),
+        filtered=measured[0] + np.concatenate([[0.0], np.cumsum(rises)]),
         capacity=capacity,
         growth=growth,
         estimated=estimated,

@@ -12,13 +12,18 @@ from softgrip.errors import DataFileError
 from softgrip.rig.board_errors import EndOfReplayError
 from softgrip.rig.connection import Interlock
 from softgrip.rig.gripper_tests import fingers_of
+from softgrip.rig.log_gaps import gaps_of
 from softgrip.rig.log_reader import read_log
 from softgrip.rig.log_schema import LogHeader
 from softgrip.rig.sensors import Measurement
 
 
 class ReplayConnection:
-    """A log of the gripper as a `Connection`, one row a period.
+    """A log of the gripper as a `Connection`, one row a call of `advance`.
+
+    A log with a gap is given as it came: the row after it is the next one, with its own time, and
+    an event that names the gap. A board's driver does the same when telemetry is lost, so that a
+    controller is asked as often as it was in the run.
 
     Parameters
     ----------
@@ -45,6 +50,9 @@ class ReplayConnection:
         self._angles = fingers_of(self.log)
         self._counts = fingers_of(self.log, "angle_counts").astype(np.int64)
         self.fingers, self._row, self._events = len(self._angles), 0, dict(self.log.events)
+        for gap in gaps_of(self.log):
+            told = self._events.get(gap.end, "")
+            self._events[gap.end] = "; ".join(filter(None, (told, f"log: {gap}")))
         # What was recorded was permitted then: only the latch and the homing are kept here.
         self._interlock = Interlock(f"replay of {path}", np.inf)
 

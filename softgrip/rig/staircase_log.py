@@ -8,7 +8,13 @@ from numpy.typing import ArrayLike
 
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.materials.arrays import Floats
+from softgrip.rig.log_gaps import even_clock, find_gaps, places, refuse_gaps
 from softgrip.rig.log_reader import read_log
+
+LONGEST = 0.25
+"""Longest time, s, that may be missing in one place. The angle is bridged by a straight line, and a
+reference that changes is taken to do so in the middle: in the mean over n changes, which take about
+a second, that is an error of half of it over n."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +71,9 @@ def lag(reference: ArrayLike, angle: ArrayLike, period: float, *, longest: float
     return int(np.argmax(alike)) * period
 
 
-def mean_edge(time: ArrayLike, reference: ArrayLike, angle: ArrayLike) -> tuple[Floats, Floats]:
+def mean_edge(
+    time: ArrayLike, reference: ArrayLike, angle: ArrayLike, *, measured: ArrayLike = True
+) -> tuple[Floats, Floats]:
     """Return time since a change, s, and the share of it covered in the mean, up to the least hold.
 
     Share 0 is the reference before the change, share 1 that after it; the mean over all changes
@@ -75,17 +83,33 @@ def mean_edge(time: ArrayLike, reference: ArrayLike, angle: ArrayLike) -> tuple[
     Parameters
     ----------
     time, reference, angle
-        s, rad, rad, shape (N,), with at least one step in the reference; steps, not ramps.
+        s, rad, rad, shape (N,), evenly sampled, with at least one step in the reference; steps, not
+        ramps.
+    measured
+        Which samples were measured and not bridged, shape (N,). The length of a hold is that of one
+        whose both ends are.
+
+    Raises
+    ------
+    InvalidInputError
+        If times are missing, there is no change or no such hold, or the reference is a ramp.
     """
     t, r, y = (np.asarray(values, np.float64) for values in (time, reference, angle))
+    if gaps := find_gaps(t, float(np.median(np.diff(t)))):
+        raise InvalidInputError("time", expected="even samples", got=places(gaps))
     at = np.flatnonzero(np.diff(r)) + 1
     if at.size == 0:
         raise InvalidInputError("reference", expected="a change", got="none")
-    shortest = int(np.diff([*at, r.size]).min())
+    known = np.broadcast_to(measured, r.shape)
+    known = np.append(known[at - 1] & known[at], True)
+    holds = np.diff([*at, r.size])[known[:-1] & known[1:]]
+    if holds.size == 0:
+        raise InvalidInputError("measured", expected="a hold from end to end", got="none")
+    shortest = int(holds.min())
     if shortest < 2:
         raise InvalidInputError("reference", expected="levels that are held", got="a ramp")
     change = r[at] - r[at - 1]
-    rows = np.stack([y[k : k + shortest] for k in at])
+    rows = y[np.minimum(at[:, None] + np.arange(shortest), y.size - 1)]
     share = ((rows - r[at - 1][:, None]) / change[:, None]).mean(axis=0)
     return t[at[0] : at[0] + shortest] - t[at[0]], share
 
@@ -101,14 +125,17 @@ def staircase_figures(path: Path | str) -> StaircaseFigures:
     Raises
     ------
     DataFileError
-        If the log has no such reference.
+        If the log has no such reference, or misses more than `LONGEST` in one place.
     """
     log = read_log(path)
     if "reference" not in log.columns:
         raise DataFileError(path, expected="a column 'reference [rad]'", got=str([*log.columns]))
-    time, reference, angle = log["time"], log["reference"], log["angle"]
+    refuse_gaps(path, log, "the mean response to an edge", above=LONGEST)
+    clock = even_clock(log)
+    time, angle = clock.lines(log["time"]), clock.lines(log["angle"])
+    reference = clock.nearest(log["reference"])
     try:
-        since, share = mean_edge(time, reference, angle)
+        since, share = mean_edge(time, reference, angle, measured=clock.measured)
         delay = lag(reference, angle, log.header.period)
     except InvalidInputError as error:
         raise DataFileError(path, expected="a staircase", got=str(error)) from None
@@ -117,7 +144,7 @@ def staircase_figures(path: Path | str) -> StaircaseFigures:
         time_to_half=_first(since, share, 0.5),
         time_to_change=_first(since, share, 0.9),
         lag=delay,
-        rms_error=float(np.sqrt(np.mean((reference - angle) ** 2))),
+        rms_error=float(np.sqrt(np.mean((log["reference"] - log["angle"]) ** 2))),
     )
 
 

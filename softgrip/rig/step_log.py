@@ -9,16 +9,24 @@ from numpy.typing import ArrayLike
 from scipy.ndimage import uniform_filter1d
 
 from softgrip.control.step_metrics import final_value, settling_time
-from softgrip.errors import DataFileError
+from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.materials.arrays import Floats, check_positive
+from softgrip.rig.log_gaps import even_clock, find_gaps, places, refuse_gaps
 from softgrip.rig.log_reader import read_log
 from softgrip.units import DEG
 
 WINDOW = 0.5
 """Over which the angle is averaged before it is judged, s, half of it on each side."""
 
+BRIDGED = 0.25
+"""Share of the window that may be missing in one place, and is bridged by a straight line. The
+line has the whole noise of its two ends: over a whole window it moves settling times by half a
+second."""
+
 END = 2.0
 """Length of the end of a record that counts as its steady state, s."""
+
+AVERAGING = "the mean of the angle about each row"
 
 About = Literal["reference", "own end"]
 
@@ -77,6 +85,7 @@ def step_figures(
     initial: float = 0.0,
     about: About = "reference",
     window: float = WINDOW,
+    measured: ArrayLike = True,
 ) -> StepFigures:
     """Judge a step.
 
@@ -93,8 +102,17 @@ def step_figures(
         keeps an error as large as the band settles about the second alone.
     window
         Of the averaging, s; 0 for a response without noise.
+    measured
+        Which samples were measured and not bridged, shape (N,): the noise is that of these.
+
+    Raises
+    ------
+    InvalidInputError
+        If the times do not increase, or samples are missing.
     """
     t, raw = np.asarray(time, np.float64), np.asarray(angle, np.float64)
+    if gaps := find_gaps(t, float(np.median(np.diff(t)))):
+        raise InvalidInputError("time", expected="even samples", got=places(gaps))
     y = smoothed(raw, float(t[1] - t[0]), window=window)
     own = final_value(t, raw, window=END)
     middle = np.broadcast_to(target, own.shape) if about == "reference" else own
@@ -114,7 +132,7 @@ def step_figures(
         settled_5_deg=five_deg,
         steady_state_error=np.asarray(target - own),
         swing=np.asarray(np.ptp(y[..., tail], axis=-1) / 2),
-        noise=np.asarray(np.std((raw - y)[..., tail], axis=-1)),
+        noise=np.asarray(np.std((raw - y)[..., tail & np.asarray(measured)], axis=-1)),
     )
 
 
@@ -134,12 +152,15 @@ def step_log_figures(
     Raises
     ------
     DataFileError
-        If the log has no reference, or its reference is no single step.
+        If the log has no reference, its reference is no single step, or more than `BRIDGED` of the
+        window is missing in one place.
     """
     log = read_log(path)
     if "reference" not in log.columns:
         raise DataFileError(path, expected="a column 'reference [rad]'", got=str([*log.columns]))
-    reference, time = log["reference"], log["time"]
+    refuse_gaps(path, log, AVERAGING, above=BRIDGED * window)
+    clock = even_clock(log)
+    reference, time = clock.nearest(log["reference"]), clock.lines(log["time"])
     changes = np.flatnonzero(np.diff(reference))
     start = int(changes[0]) + 1 if changes.size else 0
     initial = float(reference[0]) if changes.size else 0.0
@@ -149,9 +170,10 @@ def step_log_figures(
         )
     return step_figures(
         time[start:] - time[start],
-        log["angle"][start:],
+        clock.lines(log["angle"])[start:],
         float(reference[-1]),
         initial=initial,
         about=about,
         window=window,
+        measured=clock.measured[start:],
     )

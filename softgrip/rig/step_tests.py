@@ -8,9 +8,8 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
-from softgrip.errors import DataFileError
 from softgrip.materials.arrays import Floats, check_positive
-from softgrip.rig.log_reader import read_log
+from softgrip.rig.log_runs import read_alike
 from softgrip.rig.parameters import PumpParameters, RigParameters, Spread
 from softgrip.rig.plant import SimulatedRig
 
@@ -58,15 +57,11 @@ def read_step_test(paths: Sequence[Path | str]) -> StepTest:
     Raises
     ------
     DataFileError
-        If the times of two logs differ, or a log cannot be read.
+        As of `read_alike`.
     """
-    logs = [read_log(path) for path in paths]
-    time = logs[0]["time"]
-    for path, log in zip(paths, logs, strict=True):
-        if log["time"].shape != time.shape or not np.allclose(log["time"], time):
-            raise DataFileError(path, expected=f"the times of {paths[0]}", got="other times")
+    logs = read_alike(paths)
     return StepTest(
-        time, *(np.stack([log[name] for log in logs]) for name in ("pressure", "angle"))
+        logs[0]["time"], *(np.stack([log[name] for log in logs]) for name in ("pressure", "angle"))
     )
 
 

@@ -1,0 +1,81 @@
+"""What a log of a push has swept, over its true times."""
+
+from pathlib import Path
+
+import numpy as np
+
+from softgrip.errors import DataFileError
+from softgrip.materials.arrays import Floats
+from softgrip.rig.log_gaps import gaps_of, intervals, places
+from softgrip.rig.log_schema import Log
+
+LONGEST = 2.0
+"""Longest gap, s, over which a command that is the same before and after it is taken as held. A
+board whose host hangs stops its motor by itself; a longer gap tells too little."""
+START = 1500.0
+"""Pa: twice the noise of the pressure sensor. A push that begins above has lost its beginning."""
+LEAST_ROWS = 8
+
+
+def swept_volume(path: Path | str, log: Log, flow: Floats) -> Floats:
+    """Return the volume swept until each row, m^3, shape (N,).
+
+    A row tells the command that was held until its time, the first one for a period. The rows of a
+    gap tell nothing: it is bridged where the command is the same on both sides.
+
+    Parameters
+    ----------
+    path, log
+        What is read.
+    flow
+        Of each row's command, m^3/s, shape (N,).
+
+    Raises
+    ------
+    DataFileError
+        If the command changes over a gap, or the gap is longer than `LONGEST`.
+    """
+    command = log["command"]
+    if lost := [
+        gap
+        for gap in gaps_of(log)
+        if gap.end - gap.start > LONGEST or command[gap.row] != command[gap.row + 1]
+    ]:
+        raise DataFileError(
+            path,
+            expected=f"one command over each gap, and none above {LONGEST:g} s: else the volume "
+            "swept in it is not known",
+            got=places(lost),
+        )
+    # Numbers of periods, which are exactly 1 in an even log.
+    steps = np.concatenate([[1.0], intervals(log["time"], log.header.period)])
+    return np.asarray(np.cumsum(flow * steps) * log.header.period)
+
+
+def check_start(path: Path | str, swept: Floats, pressure: Floats) -> None:
+    """Refuse a push without its beginning: what it swept then would be missing throughout.
+
+    Parameters
+    ----------
+    path
+        Named in the error.
+    swept, pressure
+        m^3 and Pa (gauge) at low pressure, shape (N,).
+
+    Raises
+    ------
+    DataFileError
+        If there are fewer than `LEAST_ROWS` rows, or a parabola through the pressure begins above
+        `START`.
+    """
+    if swept.size < LEAST_ROWS or not np.ptp(swept) > 0:
+        raise DataFileError(
+            path, expected=f"{LEAST_ROWS} rows of a push at low pressure", got=str(swept.size)
+        )
+    begun = float(np.polynomial.Polynomial.fit(swept, pressure, 2)(0.0))
+    if begun > START:
+        raise DataFileError(
+            path,
+            expected=f"a push from atmospheric pressure, within {START:g} Pa",
+            got=f"{begun:.0f} Pa before the first row",
+        )
