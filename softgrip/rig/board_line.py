@@ -122,16 +122,20 @@ class BoardLine:
             self._known = self.info, self.time, self.session.heard_at
         (known, told, heard_at), end = self._known, self._link.now() + within
         self._hang_up()
+        why: BoardError | None = None
         while True:
             left = end - self._link.now()
             if left <= 0:
-                raise ConnectionLostError(self.port, f"not found again in {within:g} s")
+                raise ConnectionLostError(
+                    self.port, f"not found again in {within:g} s; at last: {why}"
+                ) from why
             try:
                 self._open(left)
                 break
             except WrongBoardError:
                 raise
-            except BoardError:
+            except BoardError as error:
+                why = error
                 if self._given is None:
                     time.sleep(TRY_EVERY)
         if (self.info.identity, self.info.build) != (known.identity, known.build):

@@ -140,13 +140,16 @@ class Session:
             return self._sequence
 
     def _turn(self) -> None:
-        """Let something happen: listen, or wait for the thread that does."""
-        if self._thread is None:
-            self._exchange()
-        elif self._fault is None:
-            self._news.wait(READ_FOR)
+        """Let something happen: listen, or wait for the thread that does.
+
+        What had come before a fault counts first, so a fault of this turn is raised in the next.
+        """
         if self._fault is not None:
             raise self._fault
+        if self._thread is None:
+            self._exchange()
+        else:
+            self._news.wait(READ_FOR)
 
     def _listen(self) -> None:
         while not self._closing and self._fault is None:
@@ -174,9 +177,11 @@ class Session:
             new, old = Telemetry.of(frame.payload), self.telemetry
             if old is not None:
                 if new.time < old.time:
+                    # Its time and place are of another life: what was last known stays.
                     self._fault = BoardResetError(
                         self.port, "the board was reset", state=self.state
                     )
+                    return
                 self.lost += (new.number - old.number - 1) % 65536 if new.time > old.time else 0
             self.telemetry, self.heard_at = new, self.link.now()
         elif not (frame.id == ACK.id and frame.payload[0] == HEARTBEAT.id):

@@ -23,7 +23,7 @@ from softgrip.rig.calibration import design_1
 from softgrip.rig.driver import Rig
 from softgrip.rig.framing import Frame, encode
 from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.protocol import ACK, HOME, TABLE, TELEMETRY_PERIOD, Flag
+from softgrip.rig.protocol import ACK, HOME, SETPOINT, TABLE, TELEMETRY_PERIOD, Flag
 from softgrip.units import PSI, REV
 from tests.rig.stub_board import HARD, LIMITS, StubBoard
 from tests.rig.test_live import until
@@ -254,6 +254,36 @@ def test_a_reset_of_the_board_is_seen_and_asks_for_homing(rig, stub):
     rig.advance(REV)
 
 
+def test_time_goes_on_over_a_reset_that_telemetry_tells(rig, stub):
+    for _ in range(20):
+        rig.advance(0.0)
+    before, clock = rig.measure().time, stub.now()
+    stub.reset()
+    with pytest.raises(BoardResetError):
+        rig.listen()
+    assert rig.measure().time == before
+    rig.reconnect(5.0)
+    assert rig.measure().time - before == pytest.approx(stub.now() - clock, abs=TELEMETRY_PERIOD)
+
+
+def test_an_answer_that_came_before_a_fault_counts(rig, stub):
+    handle = stub._handle
+
+    def answer_and_begin_anew(frame):
+        handle(frame)
+        answer = stub.take()
+        stub.reset()
+        stub.elapse(TELEMETRY_PERIOD)
+        stub.out[:0] = answer
+
+    stub._handle = answer_and_begin_anew
+    assert rig.line.session.ask(SETPOINT, speed=0) == {"id": SETPOINT.id}
+    stub._handle = handle
+    with pytest.raises(BoardResetError):
+        rig.listen()
+    rig.reconnect(5.0)
+
+
 def test_other_firmware_after_a_lost_line_is_refused(rig, stub):
     stub.build = 1
     with pytest.raises(WrongBoardError):
@@ -263,7 +293,7 @@ def test_other_firmware_after_a_lost_line_is_refused(rig, stub):
 def test_a_line_that_stays_lost_is_given_up(rig, stub):
     stub.pull(60.0)
     begin = stub.now()
-    with pytest.raises(ConnectionLostError, match="not found again in 2 s"):
+    with pytest.raises(ConnectionLostError, match=r"not found again in 2 s; at last: .*pulled"):
         rig.reconnect(2.0)
     assert 2.0 <= stub.now() - begin < 2.5
     stub.pull(0.0)
