@@ -1,5 +1,7 @@
 """What can go wrong between a host and a board: the port, the command, and what the board said."""
 
+from collections.abc import Mapping
+
 from softgrip.errors import SoftgripError
 
 
@@ -31,10 +33,17 @@ class BoardError(SoftgripError):
 
 
 class PortUnavailableError(BoardError):
-    """A port cannot be opened, or another program has it."""
+    """A port cannot be opened."""
 
-    def __init__(self, port: str, reason: str) -> None:
-        super().__init__(port, f"cannot be opened, or another program has it: {reason}")
+
+class PortBusyError(PortUnavailableError):
+    """Another program has a port; `holders` are the programs seen, names by process number."""
+
+    def __init__(self, port: str, holders: Mapping[int, str]) -> None:
+        self.holders = holders
+        seen = ", ".join(f"{name} (process {number})" for number, name in holders.items())
+        unseen = "its name is not seen; or this program, by another connection"
+        super().__init__(port, f"another program has it, {seen or unseen}: close the port there")
 
 
 class NoBoardError(BoardError):

@@ -48,8 +48,8 @@ class Rig(BoardCommands):
     Raises
     ------
     PortUnavailableError, NoBoardError, VersionMismatchError, WrongBoardError
-        If there is no such port, nothing answers on it, the firmware speaks another version, or
-        the calibration is another board's.
+        If there is no such port or another program has it, nothing answers on it, the firmware
+        speaks another version, or the calibration is another board's.
     """
 
     def __init__(
