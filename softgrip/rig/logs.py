@@ -14,6 +14,9 @@ from softgrip.rig.log_schema import EVENT, LogHeader
 
 SYNC_EVERY = 1.0
 """Longest time, s, that a written row waits for the disk, as long as rows keep coming."""
+INSTEAD = {",": ";", '"': "'", "#": "[hash]"}
+"""What parts, quotes and cuts a row where it is read as CSV with comments, and what is said for
+it when words that nobody chose, such as those of an error, go into a row."""
 
 
 class LogWriter:
@@ -60,7 +63,7 @@ class LogWriter:
     ) -> None:
         self.units = {**header.columns, **(more or {})}
         for name, unit in self.units.items():
-            if any(c in name + unit for c in ",\r\n[]") or name == EVENT:
+            if any(c in name + unit for c in '",#\r\n[]') or name == EVENT:
                 raise InvalidInputError("more", expected="plain names and units", got=(name, unit))
         try:
             self._file = Path(path).open("x", encoding="utf-8", newline="", buffering=1)  # noqa: SIM115
@@ -86,14 +89,17 @@ class LogWriter:
         Parameters
         ----------
         event
-            Words without comma or line break.
+            Words without comma, quote, ``#`` or anything that cannot be printed, such as a break.
+            `run_log.plain` makes such of any.
         **values
             A finite number for each column, in its unit; time must rise.
         """
         if values.keys() != self.units.keys():
             raise InvalidInputError("values", expected=f"{list(self.units)}", got=list(values))
-        if any(c in event for c in ',\r\n"') or event != event.strip():
-            raise InvalidInputError("event", expected="words without comma or break", got=event)
+        if any(c in INSTEAD or not c.isprintable() for c in event) or event != event.strip():
+            raise InvalidInputError(
+                "event", expected="words without comma, quote, # or break, not padded", got=event
+            )
         cells = []
         for name, unit in self.units.items():
             value = float(values[name])

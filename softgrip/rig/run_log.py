@@ -10,7 +10,7 @@ from typing import Self
 
 from softgrip.errors import SoftgripError
 from softgrip.rig.log_schema import LogHeader
-from softgrip.rig.logs import LogWriter
+from softgrip.rig.logs import INSTEAD, LogWriter
 
 
 class RunLog:
@@ -95,9 +95,12 @@ class RunLog:
 
 
 def plain(words: str) -> str:
-    """Return words as a log can hold them: on one line, without comma or quote.
+    """Return words as a log can hold them; what it cannot hold stays to be seen.
 
-    >>> plain('lost, "again"')
-    "lost; 'again'"
+    >>> plain('lost, "again", at #3')
+    "lost; 'again'; at [hash]3"
+    >>> plain("two\\nlines, a bell\\a")
+    'two lines; a bell\\\\x07'
     """
-    return " ".join(words.replace(",", ";").replace('"', "'").split())
+    joined = " ".join(words.translate(str.maketrans(INSTEAD)).split())
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in joined)

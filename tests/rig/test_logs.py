@@ -1,11 +1,13 @@
 """Writing and reading logs."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
 from itertools import pairwise
 
+import pandas as pd
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -15,6 +17,7 @@ from softgrip.provenance import Provenance
 from softgrip.rig.log_reader import read_log
 from softgrip.rig.log_schema import COLUMNS, LogHeader
 from softgrip.rig.logs import LogWriter
+from softgrip.rig.run_log import RunLog, plain
 from softgrip.units import DEG
 
 HEADER = LogHeader(
@@ -91,6 +94,7 @@ import itertools, pathlib, time
 from softgrip.provenance import Provenance
 from softgrip.rig.log_schema import LogHeader
 from softgrip.rig.logs import LogWriter
+from softgrip.rig.run_log import RunLog, plain
 log = LogWriter(pathlib.Path({str(path)!r}),
                 LogHeader(Provenance.SIMULATED, "test", "simulated rig", 0.025))
 for k in itertools.count():
@@ -179,6 +183,10 @@ def test_damage_is_refused_with_file_and_line(path, change, words, from_end):
         {"angle": float("nan")},
         {"time": -1.0},
         {"event": "a,b"},
+        {"event": "trial #3"},
+        {"event": 'so "called"'},
+        {"event": "two\nlines"},
+        {"event": "a name \udcff of a file"},
         {"angle_counts": 1.5},
         {"new": 1.0},
     ],
@@ -188,6 +196,37 @@ def test_writer_refuses_what_the_reader_would(tmp_path, values):
         log.write(**row(0))
         with pytest.raises(InvalidInputError):
             log.write(**{**row(1), **values})
+
+
+@given(words=st.text(st.characters(codec=None)))
+def test_words_that_nobody_chose_are_one_cell_for_every_reader(words, tmp_path_factory):
+    made = tmp_path_factory.mktemp("log") / "log.csv"
+    with LogWriter(made, HEADER) as log:
+        log.write(**row(0), event=plain(f"it said {words}"))
+        log.write(**row(1), event="end")
+    seen = pd.read_csv(made, comment="#")
+    assert seen["event"].tolist() == [plain(f"it said {words}"), "end"]
+    assert seen["angle [rad]"].tolist() == [0.1, 0.1]
+    assert [event for _, event in read_log(made).events] == seen["event"].tolist()
+    # Nothing is lost that can be seen.
+    assert all(word in seen["event"][0] for word in re.findall(r"\w+", words))
+
+
+def test_a_log_goes_on_after_words_that_it_cannot_hold(tmp_path):
+    path = tmp_path / "log.csv"
+    with RunLog(path, HEADER) as log:
+        for k in range(3):
+            log.write(**row(k))
+            log.note("trial #3 of 'a\udcff': no, \"not\"\nthis\0")
+    assert log.failure == ""
+    assert pd.read_csv(path, comment="#")["event"].tolist() == [
+        "trial [hash]3 of 'a\\udcff': no; 'not' this\\x00"
+    ] * 3
+
+
+def test_names_of_columns_hold_no_comment(tmp_path):
+    with pytest.raises(InvalidInputError, match="plain names"):
+        LogWriter(tmp_path / "log.csv", HEADER, more={"finger #2": "rad"})
 
 
 def test_columns_that_are_not_there_are_named(path):
