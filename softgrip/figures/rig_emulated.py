@@ -4,10 +4,14 @@ import csv
 
 import pandas as pd
 
+from softgrip.figures.rig_protocol import BITS, telemetry_bytes
 from softgrip.provenance import data_file
 from softgrip.rig.firmware.header import build
+from softgrip.rig.protocol import BAUD
 
 FILE = "rig/emulated_board.csv"
+EMULATED_BITS = BITS + 1
+"""Bit times of a byte on the emulated line: simavr 1.6 counts a parity bit that 8N1 has not."""
 COLUMNS = ("what", "value", "unit", "wanted", "how")
 
 
@@ -26,4 +30,16 @@ def measured_firmware() -> str:
     now = f"{build():08x}"
     return f"build {kept}" + (
         ", the present one" if kept == now else f"; the sources are by now build {now}"
+    )
+
+
+def emulated_line() -> str:
+    """Return by how much the emulated line is slower than a board's, in words."""
+    emulated, real = (1e3 * telemetry_bytes() * bits / BAUD for bits in (EMULATED_BITS, BITS))
+    return (
+        f"The emulated line is {EMULATED_BITS / BITS - 1:.0%} slower than a board's: simavr counts"
+        f" a parity bit in each byte, which 8N1 has not. A telemetry frame takes {emulated:.2f} ms"
+        f" on it, and {real:.2f} ms on a board. So the times above, as far as bytes are waited for,"
+        " err to the long side. The rate of telemetry is the board's timer's, and depends on none"
+        " of it; nor does a band of the acceptance or of the check."
     )

@@ -13,6 +13,8 @@ from softgrip.rig.protocol import BAUD, MESSAGES, PROTOCOL_VERSION, TABLE, TELEM
 
 FRAME = 2 + 2 + 1 + 1
 """Bytes of a frame beside its payload: id, number; CRC; the byte of COBS; the 0 at the end."""
+BITS = 10
+"""Of a byte on the line, 8N1: a start bit and a stop bit beside the eight."""
 HOST_IDS = 128
 """The host's messages have ids below."""
 
@@ -83,10 +85,14 @@ def reason_table(reasons: type[IntEnum]) -> pd.DataFrame:
     )
 
 
+def telemetry_bytes() -> int:
+    """Return the length of a telemetry frame on the line."""
+    return TELEMETRY.layout.size + FRAME
+
+
 def line_table() -> pd.DataFrame:
     """Tabulate the line: version, rate, and what of it telemetry takes."""
-    rate = BAUD / 10  # a start bit and a stop bit beside the eight
-    frame = TELEMETRY.layout.size + FRAME
+    rate, frame = BAUD / BITS, telemetry_bytes()
     return pd.DataFrame(
         {
             "what": [

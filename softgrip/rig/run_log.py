@@ -95,12 +95,12 @@ class RunLog:
 
 
 def plain(words: str) -> str:
-    """Return words as a log can hold them; what it cannot hold stays to be seen.
+    r"""Return words as a log can hold them; what it cannot hold stays to be seen.
 
     >>> plain('lost, "again", at #3')
     "lost; 'again'; at [hash]3"
-    >>> plain("two\\nlines, a bell\\a")
-    'two lines; a bell\\\\x07'
+    >>> print(plain("two" + chr(10) + "lines" + chr(7)))
+    two lines\x07
     """
     joined = " ".join(words.translate(str.maketrans(INSTEAD)).split())
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in joined)

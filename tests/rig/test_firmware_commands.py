@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
+from softgrip.figures.rig_emulated import EMULATED_BITS
 from softgrip.rig.firmware.header import build
 from softgrip.rig.framing import Frame, encode
 from softgrip.rig.protocol import (
+    BAUD,
     CHANNELS,
     CLEAR,
     COUNTERS,
@@ -26,7 +28,7 @@ from softgrip.rig.protocol import (
     ResetCause,
     SetUp,
 )  # fmt: skip
-from tests.emulator.board import EmulatedBoard
+from tests.emulator.board import CLOCK, EmulatedBoard
 from tests.emulator.build import needs_emulator
 from tests.emulator.host import Host
 
@@ -209,3 +211,15 @@ def test_the_valve_is_there_or_not(host):
         with_valve.run(0.05)
         assert with_valve.board.valve_open == bool(is_open)
         assert bool(with_valve.flags & Flag.VALVE_OPEN) == bool(is_open)
+
+
+def test_the_emulated_line_is_as_slow_as_the_book_says_and_telemetry_keeps_its_rate(host):
+    host.board.advance(1.0)
+    data, times = host.board.read_timed()
+    cycles = np.rint(np.diff(times) * CLOCK)
+    assert np.median(cycles) == EMULATED_BITS * CLOCK / BAUD
+    # A frame begins after a pause. A timer of the chip says when, to the cycles of an interrupt;
+    # so no rate that is judged hangs on how long a byte takes.
+    begins = times[1:][cycles > 2 * np.median(cycles)]
+    assert data.count(0) > 35
+    assert np.diff(begins) == pytest.approx(TELEMETRY_PERIOD, abs=1e-6)

@@ -219,9 +219,10 @@ def test_a_log_goes_on_after_words_that_it_cannot_hold(tmp_path):
             log.write(**row(k))
             log.note("trial #3 of 'a\udcff': no, \"not\"\nthis\0")
     assert log.failure == ""
-    assert pd.read_csv(path, comment="#")["event"].tolist() == [
-        "trial [hash]3 of 'a\\udcff': no; 'not' this\\x00"
-    ] * 3
+    assert (
+        pd.read_csv(path, comment="#")["event"].tolist()
+        == ["trial [hash]3 of 'a\\udcff': no; 'not' this\\x00"] * 3
+    )
 
 
 def test_names_of_columns_hold_no_comment(tmp_path):
