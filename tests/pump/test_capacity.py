@@ -82,6 +82,37 @@ def test_likelihood_is_the_joint_density(short):
     )
 
 
+@pytest.mark.parametrize("lost", [[1, 2, 3], [4], [3, 4], [1, 2, 5, 6]])
+def test_missing_samples_are_predicted_over_and_have_no_likelihood(lost):
+    # [1, 2, 3]: the gap comes before any sample has told of the elastance.
+    time = np.arange(8.0)
+    flow, angle = FLOW * np.ones(8), 0.1 * time
+    _, measured = simulate(MODEL, flow, angle, 1, seed=4)
+    kept = np.delete(np.arange(8), lost)
+    found = estimate(measured[0, kept], flow[kept], angle[kept], MODEL, steps=np.diff(time[kept]))
+    oracle = oracle_of(MODEL, flow, angle)
+    oracle.Z, oracle.z_mean = oracle.Z[kept], np.array(oracle.z_mean)[kept]
+    for k, row in enumerate(kept):
+        mean, covariance = oracle.state(row, measured[0, kept[: k + 1], None])
+        std = np.sqrt(np.diag(covariance))
+        np.testing.assert_allclose(found.state[k] / std, mean / std, rtol=1e-9, atol=1e-9)
+        np.testing.assert_allclose(
+            found.covariance[k] / np.outer(std, std), covariance / np.outer(std, std), atol=1e-9
+        )
+    assert found.log_likelihood == pytest.approx(oracle.log_density(measured[0, kept]), rel=1e-9)
+    np.testing.assert_allclose(found.time, time[kept] * DT, rtol=1e-12)
+
+
+def test_uneven_steps_move_by_their_own_time(short):
+    measured, flow, angle = short
+    steps = np.array([1.0, 0.8, 1.2, 1.0, 1.4, 0.6, 1.0])
+    found = estimate(measured, flow, angle, MODEL, steps=steps)
+    # A flow that is so much larger moves as much in a step.
+    scaled = estimate(measured, np.append(flow[:-1] * steps, 0.0), angle, MODEL)
+    np.testing.assert_allclose(found.state, scaled.state, rtol=1e-12)
+    assert found.time[-1] == pytest.approx(steps.sum() * DT)
+
+
 def ramp(n):
     time = np.arange(n) * DT
     return np.full(n, FLOW), 0.6 * time
@@ -179,6 +210,9 @@ def test_bad_records_are_refused(short):
         estimate(measured[:1], flow[:1], angle[:1], MODEL)
     with pytest.raises(InvalidInputError, match="NaN"):
         estimate(np.where(measured > 0, np.nan, measured), flow, angle, MODEL)
+    for steps in (0.0, [1.0, 1.0], np.full(7, np.nan)):
+        with pytest.raises(InvalidInputError, match="steps"):
+            estimate(measured, flow, angle, MODEL, steps=steps)
 
 
 @pytest.mark.parametrize(
