@@ -102,5 +102,5 @@ def plain(words: str) -> str:
     >>> print(plain("two" + chr(10) + "lines" + chr(7)))
     two lines\x07
     """
-    joined = " ".join(words.translate(str.maketrans(INSTEAD)).split())
+    joined = " ".join("".join(INSTEAD.get(c, c) for c in words).split())
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in joined)
