@@ -12,8 +12,8 @@ from softgrip.figures.widgets_2_pad import draw_elements, draw_estimate, outline
 from softgrip.materials.arrays import Floats
 from softgrip.provenance import Provenance, data_file
 from softgrip.rig import pad_calibration_table
+from softgrip.rig.contacts_log import read_contacts
 from softgrip.rig.pad_accuracy import PlaceErrors, ideal_responses, place_errors, responses_to
-from softgrip.rig.pad_logs import read_contacts
 from softgrip.rig.pad_objects import pad_object
 from softgrip.rig.pad_parameters import PadParameters
 from softgrip.rig.pad_protocol import PAD_SEED

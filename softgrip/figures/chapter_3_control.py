@@ -14,7 +14,6 @@ from softgrip.control.lqr_limit import certificate, closed_loop_poles
 from softgrip.control.minimum_time import minimum_settling_time
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.second_order import full_state_space
-from softgrip.figures.chapter_4 import simulated
 from softgrip.figures.exhibit import figure
 from softgrip.figures.style import (
     BLUE,
@@ -28,7 +27,7 @@ from softgrip.figures.style import (
 )
 from softgrip.provenance import Provenance
 from softgrip.rig.identified_model import identified_model
-from softgrip.rig.log_reader import read_log
+from softgrip.rig.log_reader import kept_log, read_log
 from softgrip.rig.lqr_gains import FILE as GAINS
 from softgrip.rig.lqr_gains import designed_on
 from softgrip.units import DEG
@@ -59,7 +58,7 @@ def figure_3_12(logs: tuple[Path | str, ...] = ()) -> Figure:
     drawn = Figure(figsize=(WIDTH, 7.0))
     panels = drawn.subplots(4, 1, sharex=True, height_ratios=(2, 1, 2, 1))
     model = identified_model()
-    paths = logs or tuple(simulated(name) for name in LOGS)
+    paths = logs or tuple(kept_log(name) for name in LOGS)
     titles = ("(a) printed weights", "(b) faster design")
     for k, (path, design, title) in enumerate(zip(paths, ("printed", "fast"), titles, strict=True)):
         angle, command = panels[2 * k : 2 * k + 2]

@@ -17,7 +17,7 @@ from softgrip.pump.pressure import pressure
 from softgrip.pump.printed_filter import printed_filter, run_printed
 from softgrip.rig.log_gaps import intervals
 from softgrip.rig.log_pump import pump_of
-from softgrip.rig.log_reader import read_log
+from softgrip.rig.log_reader import kept_log, read_log
 from softgrip.rig.pressure_models import compare, prior, reference_noise
 from softgrip.units import ML, MPa
 
@@ -31,11 +31,6 @@ PANELS = (
     "(d) higher speed",
 )
 HOLD = "simulated/step-60-1.csv"
-
-
-def simulated(name: str) -> Path:
-    """Return the path of a log that the book uses."""
-    return data_folder() / "simulated" / f"{name}.csv"
 
 
 @figure(
@@ -87,7 +82,7 @@ def figure_4_3() -> Figure:
 def figure_4_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the three models against four pushes; ``logs`` puts others in their place."""
     drawn = Figure(figsize=(WIDTH, 5.4))
-    paths = logs or tuple(simulated(name) for name in PUSHES)
+    paths = logs or tuple(kept_log(name) for name in PUSHES)
     rows = -(-len(paths) // 2)
     panels = np.ravel(drawn.subplots(rows, 2, sharey=True, squeeze=False))
     names = PANELS if not logs else tuple(Path(path).stem for path in paths)
@@ -128,8 +123,8 @@ def _draw_push(axes: Any, path: Path | str, name: str) -> None:
 def figure_4_a() -> Figure:
     """Draw the capacity by the printed filter and by the one that measures pressure."""
     drawn = Figure(figsize=(WIDTH, 3.2))
-    push, hold = compare(simulated("push-a")), data_folder() / HOLD
-    angle = read_log(simulated("push-a"))["angle"]
+    push, hold = compare(kept_log("push-a")), data_folder() / HOLD
+    angle = read_log(kept_log("push-a"))["angle"]
     seen = push.estimated.capacity
     turned = np.cumsum(angle) - angle
     gain = float(turned @ (seen - push.capacity) / (turned @ turned))

@@ -12,12 +12,11 @@ from softgrip.control.minimum_time import farthest
 from softgrip.control.pid import Gains
 from softgrip.control.pressure_command import SET_PRESSURE
 from softgrip.dynamics.second_order import full_state_space, state_space
-from softgrip.figures.chapter_4 import simulated
 from softgrip.figures.exhibit import figure
 from softgrip.figures.style import GREY, LUDWICK, MEASURED, PRINTED, VERMILION, WIDTH
 from softgrip.provenance import Provenance
 from softgrip.rig.identified_model import IdentifiedModel, identified_model
-from softgrip.rig.log_reader import read_log
+from softgrip.rig.log_reader import kept_log, read_log
 from softgrip.rig.pid_gains import pid_gains
 from softgrip.units import DEG
 
@@ -50,7 +49,7 @@ def figure_4_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     drawn = Figure(figsize=(WIDTH, 5.2))
     model = identified_model()
     panels = drawn.subplots(2, 1, sharex=True, sharey=True)
-    paths = logs or tuple(simulated(name) for name in STEPS)
+    paths = logs or tuple(kept_log(name) for name in STEPS)
     titles = ("(a) designed on the finger alone", "(b) designed on finger and pump")
     for axes, path, design, title in zip(panels, paths, ("actuator", "full"), titles, strict=True):
         log = read_log(path)
@@ -82,7 +81,7 @@ def figure_4_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the staircase; ``logs`` gives one of another rig."""
     drawn = Figure(figsize=(WIDTH, 3.2))
     axes = drawn.subplots()
-    log = read_log((logs or (simulated("staircase"),))[0])
+    log = read_log((logs or (kept_log("staircase"),))[0])
     axes.plot(log["time"], log["reference"] / DEG, color=PRINTED, label="reference")
     axes.plot(
         log["time"], log["angle"] / DEG, color=MEASURED, lw=1, label=str(log.header.provenance)

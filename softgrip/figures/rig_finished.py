@@ -8,7 +8,7 @@ from softgrip.figures.rig_live import LivePlot
 from softgrip.figures.save import svg
 from softgrip.rig.connection import Connection
 from softgrip.rig.live import LiveRun
-from softgrip.rig.live_experiment import experiments
+from softgrip.rig.live_experiments import experiments
 from softgrip.rig.live_rig import check_simulated
 
 

@@ -14,16 +14,16 @@ from softgrip.control.lqr_limit import settling_at_the_bound, settling_floor
 from softgrip.control.minimum_time import minimum_settling_time
 from softgrip.dynamics.second_order import full_state_space
 from softgrip.figures.chapter_3_control import BANDS, FASTER, LOGS, PRINTED_TIME
-from softgrip.figures.chapter_4 import simulated
 from softgrip.figures.exhibit import table
 from softgrip.provenance import Provenance
 from softgrip.rig.calibration import design_1
-from softgrip.rig.closed_loop import Name, controller, run_on_rig
-from softgrip.rig.closed_loop_logs import SEED, STEP, STEP_DURATION
+from softgrip.rig.chance import SEED
+from softgrip.rig.closed_loop import run_on_rig
+from softgrip.rig.closed_loop_logs import STEP, STEP_DURATION
 from softgrip.rig.identified_model import identified_model
-from softgrip.rig.log_reader import read_log
+from softgrip.rig.log_reader import kept_log, read_log
 from softgrip.rig.lqr_gains import FILE as GAINS
-from softgrip.rig.lqr_gains import designed_on
+from softgrip.rig.lqr_gains import designed_on, regulator
 from softgrip.rig.plant import SimulatedRig
 from softgrip.rig.step_log import StepFigures, step_figures, step_log_figures
 from softgrip.units import DEG
@@ -62,12 +62,9 @@ def table_3_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
             ), "0",
         ),
     ]  # fmt: skip
-    paths = logs or tuple(simulated(name) for name in LOGS)
-    names: tuple[tuple[str, str, Name], ...] = (
-        ("printed weights", "printed", "lqr printed"),
-        ("faster design", "fast", "lqr fast"),
-    )
-    for path, (words, design, name) in zip(paths, names, strict=True):
+    paths = logs or tuple(kept_log(name) for name in LOGS)
+    names = (("printed weights", "printed"), ("faster design", "fast"))
+    for path, (words, design) in zip(paths, names, strict=True):
         finger, weights = designed_on(design, model)
         own = limited_loop(
             finger, model.pump_gain, lqr_gain(finger, weights), STEP, duration=STEP_DURATION
@@ -76,7 +73,7 @@ def table_3_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
         rows += [
             (words, "5 rev/s", *_told(step_figures(own.time, own.measured, STEP, window=0))),
             (words, rig, *_told(step_log_figures(path))),
-            (words, f"simulated, {RUNS} runs", *_told(_runs(name))),
+            (words, f"simulated, {RUNS} runs", *_told(_runs(design))),
         ]
     return pd.DataFrame(rows, columns=["design", "run on", "2 %", "5 %", "5 deg", "error (deg)"])
 
@@ -85,9 +82,9 @@ def _linear(weights: Weights, bands: tuple[float, ...]) -> list[str]:
     return [*(f"{linear_settling_time(FINGER, weights, band):.2f}" for band in bands), "0"]
 
 
-def _runs(name: Name) -> StepFigures:
+def _runs(design: str) -> StepFigures:
     rig = SimulatedRig(design_1(), runs=RUNS, seed=SEED)
-    loop = run_on_rig(rig, controller(name), STEP, duration=STEP_DURATION)
+    loop = run_on_rig(rig, regulator(design), STEP, duration=STEP_DURATION)
     return step_figures(loop.result.time, loop.result.measured, STEP)
 
 

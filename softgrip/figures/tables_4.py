@@ -7,7 +7,6 @@ import numpy as np
 import pandas as pd
 
 from softgrip.control.designs import STEP
-from softgrip.figures.chapter_4 import simulated
 from softgrip.figures.chapter_4_control import GAINS, loop
 from softgrip.figures.exhibit import table
 from softgrip.provenance import Provenance
@@ -16,7 +15,7 @@ from softgrip.pump.flow import TABLE_4_1, Pump, flow
 from softgrip.pump.sizing import Sizing, sizings
 from softgrip.rig.calibration_table import read
 from softgrip.rig.identified_model import identified_model
-from softgrip.rig.log_reader import read_log
+from softgrip.rig.log_reader import kept_log, read_log
 from softgrip.rig.pid_gains import pid_gains
 from softgrip.rig.step_log import step_figures, step_log_figures
 from softgrip.units import DEG, ML, MM, REV, MPa
@@ -133,7 +132,7 @@ def table_4_b() -> pd.DataFrame:
 def table_4_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
     """Tabulate settling times of both controllers under each criterion; ``logs`` gives two."""
     model = identified_model()
-    paths = logs or (simulated("pid-actuator"), simulated("pid-full"))
+    paths = logs or (kept_log("pid-actuator"), kept_log("pid-full"))
     rows = []
     designs = ("actuator", "full")
     names = ("finger alone (4.14)", "finger and pump (4.15)")

@@ -9,7 +9,7 @@ from softgrip.figures.widgets_2_force import draw_bandwidth
 from softgrip.figures.widgets_2_pad import draw_pad
 from softgrip.materials.arrays import Floats
 from softgrip.provenance import data_file
-from softgrip.rig.pad_logs import read_contacts
+from softgrip.rig.contacts_log import read_contacts
 from softgrip.tactile.contact_kind import bagged_neighbours
 from softgrip.tactile.pad_model_fast import FastKind
 

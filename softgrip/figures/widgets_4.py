@@ -7,7 +7,6 @@ from matplotlib.ticker import MultipleLocator
 from softgrip.control.designs import STEP
 from softgrip.control.pid import Gains
 from softgrip.control.step_metrics import settling_time
-from softgrip.figures.chapter_4 import simulated
 from softgrip.figures.chapter_4_control import loop
 from softgrip.figures.style import GREY, LINEAR, LUDWICK, MEASURED, PRINTED, VERMILION, still, style
 from softgrip.pump.finger import Finger
@@ -16,6 +15,7 @@ from softgrip.pump.gas import ATMOSPHERE, capacity, closed_volume_pressure
 from softgrip.pump.pressure import pressure
 from softgrip.pump.sizing import sizings
 from softgrip.rig.identified_model import identified_model
+from softgrip.rig.log_reader import kept_log
 from softgrip.rig.pid_gains import pid_gains
 from softgrip.rig.pressure_models import compare
 from softgrip.units import DEG, ML, MM, REV, MPa
@@ -64,7 +64,7 @@ def draw_filter(noise: float) -> Figure:
     noise
         Factor on the estimated noise of the elastance.
     """
-    found = compare(simulated("push-a"), noise_factor=noise)
+    found = compare(kept_log("push-a"), noise_factor=noise)
     seen, std = found.estimated.capacity, found.estimated.capacity_std
     unit = ML / MPa
     with style():

@@ -18,7 +18,7 @@ from softgrip.figures.rig_finished import FinishedRun
 from softgrip.figures.rig_live import LivePlot
 from softgrip.rig.connection import Connection
 from softgrip.rig.live import LiveRun
-from softgrip.rig.live_experiment import experiments
+from softgrip.rig.live_experiments import experiments
 from softgrip.rig.live_rig import check_period
 
 REDRAW_EVERY = 0.25

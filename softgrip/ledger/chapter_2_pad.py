@@ -4,9 +4,9 @@ import numpy as np
 
 from softgrip.ledger.verdict import simulated
 from softgrip.provenance import data_file
+from softgrip.rig.contacts_log import read_contacts
 from softgrip.rig.pad_accuracy import place_errors
 from softgrip.rig.pad_calibration_table import ceiling_force
-from softgrip.rig.pad_logs import read_contacts
 from softgrip.rig.pad_parameters import PadParameters
 from softgrip.tactile.pad_layout import THREE_TWO_THREE
 

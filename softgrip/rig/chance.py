@@ -5,6 +5,9 @@ import numpy as np
 from softgrip.materials.arrays import Floats
 from softgrip.rig.parameters import Spread
 
+SEED = 2024
+"""Of all simulated data that are kept, and of the studies on them."""
+
 CHANNELS = 2
 """Noisy channels: pressure and angle."""
 

@@ -1,26 +1,15 @@
-"""The controllers of Chapters 3 and 4 on the simulated rig, with all that its sensors tell."""
+"""A controller on the simulated rig, with all that its sensors tell."""
 
 from dataclasses import dataclass, replace
-from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.control.loop import SPEED_LIMIT, Controller, LoopResult, run_loop
-from softgrip.control.pid import PID
-from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed, PressureByPlunger
-from softgrip.errors import InvalidInputError
 from softgrip.materials.arrays import Floats
 from softgrip.rig.angle_plant import AnglePlant
-from softgrip.rig.identified_model import identified_model
-from softgrip.rig.lqr_gains import regulator
-from softgrip.rig.pid_gains import pid_gains
 from softgrip.rig.plant import SimulatedRig
 from softgrip.rig.sensors import Measurement
-
-Name = Literal["actuator", "actuator by plunger", "full", "lqr printed", "lqr fast"]
-"""The (4.14) design under its two readings of `control.pressure_command`, the (4.15) one, and the
-regulators of `rig.lqr_gains`."""
 
 
 @dataclass(frozen=True)
@@ -40,33 +29,6 @@ class ClosedLoop:
     result: LoopResult
     measured: Measurement
     true_angle: Floats
-
-
-def controller(name: Name, stage: str = "tuned") -> Controller:
-    """Return a controller with its kept gains, from angles to motor speed.
-
-    Parameters
-    ----------
-    name
-        Which.
-    stage
-        Of the tuning, for a PID; see `rig.pid_gains`.
-
-    Raises
-    ------
-    InvalidInputError
-        If the name is not one of `Name`.
-    """
-    if name not in get_args(Name):
-        raise InvalidInputError("name", expected=f"one of {get_args(Name)}", got=name)
-    if name in ("lqr printed", "lqr fast"):
-        return regulator(name.removeprefix("lqr "))
-    if name == "full":
-        return PID(pid_gains("full", stage), limits=(-SPEED_LIMIT, SPEED_LIMIT))
-    pid = PID(pid_gains("actuator", stage), limits=(-SET_PRESSURE, SET_PRESSURE))
-    if name == "actuator":
-        return PressureAsSpeed(pid)
-    return PressureByPlunger(pid, identified_model().pump_gain)
 
 
 def run_on_rig(

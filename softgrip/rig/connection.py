@@ -1,6 +1,5 @@
 """One interface over what can be driven: a simulated rig, a replay, an emulated board, a board."""
 
-from dataclasses import replace
 from types import TracebackType
 from typing import Protocol, Self
 
@@ -11,6 +10,7 @@ from softgrip.errors import InvalidInputError
 from softgrip.materials.arrays import Floats
 from softgrip.rig.board_errors import CommandRefusedError
 from softgrip.rig.log_schema import LogHeader
+from softgrip.rig.motor import one_speed
 from softgrip.rig.sensors import Measurement
 
 
@@ -148,26 +148,3 @@ class Interlock:
         """Return the last event and forget it."""
         event, self._event = self._event, ""
         return event
-
-
-def one_speed(command: ArrayLike) -> float:
-    """Return a command of any shape with one element as a number, rad/s.
-
-    >>> one_speed([[2]])
-    2.0
-    """
-    values = np.asarray(command, dtype=np.float64)
-    if values.size != 1 or not np.isfinite(values).all():
-        raise InvalidInputError("command", expected="one finite motor speed, rad/s", got=command)
-    return float(values.item())
-
-
-def by_finger(found: Measurement) -> Measurement:
-    """Return a measurement of one run with its angles as shape (fingers, 1)."""
-    return replace(
-        found,
-        pressure=found.pressure.reshape(1),
-        angle=found.angle.reshape(-1, 1).copy(),
-        pressure_counts=found.pressure_counts.reshape(1),
-        angle_counts=found.angle_counts.reshape(-1, 1),
-    )

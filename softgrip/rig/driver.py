@@ -12,9 +12,9 @@ from softgrip.rig.board_calibration import BoardCalibration, nominal
 from softgrip.rig.board_commands import HUNG_AFTER, BoardCommands
 from softgrip.rig.board_errors import BoardError
 from softgrip.rig.board_line import BoardLine
-from softgrip.rig.connection import one_speed
 from softgrip.rig.link import Link
 from softgrip.rig.log_schema import LogHeader
+from softgrip.rig.motor import one_speed
 from softgrip.rig.parameters import PumpParameters
 from softgrip.rig.protocol import CHANNELS, PROTOCOL_VERSION, TELEMETRY_PERIOD
 from softgrip.rig.sensors import Measurement

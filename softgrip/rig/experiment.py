@@ -12,9 +12,10 @@ from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.state_feedback import SPEED_DIGITS
 from softgrip.materials.arrays import Floats, check_positive
 from softgrip.rig.board_errors import BoardError, ConnectionLostError
-from softgrip.rig.connection import Connection, one_speed
+from softgrip.rig.connection import Connection
 from softgrip.rig.gripper_loop import CommandSequence, GripperController
 from softgrip.rig.gripper_tests import column
+from softgrip.rig.motor import one_speed
 from softgrip.rig.run_log import RunLog, plain
 from softgrip.rig.sensors import Measurement
 

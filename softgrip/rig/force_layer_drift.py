@@ -12,7 +12,8 @@ import pandas as pd
 from softgrip.errors import InvalidInputError
 from softgrip.materials.arrays import Floats
 from softgrip.provenance import data_file, data_folder
-from softgrip.rig.force_layer_logs import AGES, SEED, read
+from softgrip.rig.chance import SEED
+from softgrip.rig.force_layer_logs import AGES, read
 from softgrip.rig.force_layer_protocols import LONG_WEIGHTS, long_run
 from softgrip.rig.force_layer_study import to_force, weight_points
 from softgrip.tactile.drift import DRIFT_WEIGHTS, DriftBetween, LinearDrift

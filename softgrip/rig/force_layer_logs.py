@@ -12,6 +12,7 @@ import pandas as pd
 
 from softgrip.errors import UnknownNameError
 from softgrip.provenance import Provenance, data_file, data_folder
+from softgrip.rig.chance import SEED
 from softgrip.rig.force_layer import ForceLayer
 from softgrip.rig.force_layer_protocols import (
     Reading,
@@ -26,7 +27,6 @@ from softgrip.rig.logs import LogWriter
 from softgrip.tactile.force import table_2_2
 
 COMMAND = "python -m softgrip.rig.force_layer_logs"
-SEED = 2024
 TIMES = 10
 """Section 2.4: each object is measured ten times."""
 

@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import least_squares
 
+from softgrip.gripper.internal_model import PERIOD
 from softgrip.gripper.plant import FingerDynamics
 from softgrip.materials.arrays import Floats
 from softgrip.rig.gripper_loop import CommandSequence, drive_gripper
@@ -21,13 +22,12 @@ from softgrip.rig.gripper_parameters import (
     OPEN_LOOP_ANGLES,
     RIGHT,
     TRAVEL,
-    GripperParameters,
     finger_of,
     printed_gripper,
 )
-from softgrip.rig.gripper_rig import PERIOD, GripperRig
+from softgrip.rig.gripper_rig import GripperRig
 from softgrip.rig.gripper_tests import GripperLogs, each_identified
-from softgrip.rig.parameters import PumpParameters
+from softgrip.rig.parameters import GripperParameters, PumpParameters
 from softgrip.units import REV
 
 OPEN_LOOP_DURATION = 6.0

@@ -11,7 +11,7 @@ import numpy as np
 from softgrip.gripper.uncertainty import parameter_bounds
 from softgrip.rig.calibration_entry import Entry, assumed, printed
 from softgrip.rig.calibration_table import write_entries
-from softgrip.rig.closed_loop_logs import SEED
+from softgrip.rig.chance import SEED
 from softgrip.rig.gripper_calibration import step_identifies
 from softgrip.rig.gripper_parameters import (
     AREA,

@@ -11,7 +11,7 @@ from softgrip.control.step_metrics import final_value, settling_time
 from softgrip.gripper.robustness import tolerated_uncertainty
 from softgrip.gripper.synchronization import synchronization_error
 from softgrip.materials.arrays import Floats
-from softgrip.rig.closed_loop_logs import SEED
+from softgrip.rig.chance import SEED
 from softgrip.rig.gripper_calibration import OPEN_LOOP_DURATION
 from softgrip.rig.gripper_control import (
     feedback_of,
@@ -21,8 +21,9 @@ from softgrip.rig.gripper_control import (
     target_angles,
 )
 from softgrip.rig.gripper_loop import DrivenGripper, GripperController, drive_gripper
-from softgrip.rig.gripper_parameters import GripperParameters, printed_gripper
+from softgrip.rig.gripper_parameters import printed_gripper
 from softgrip.rig.gripper_rig import GripperRig
+from softgrip.rig.parameters import GripperParameters
 from softgrip.units import DEG
 
 RUNS = 50

@@ -11,7 +11,7 @@ from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import Weights, lqr_gain
 from softgrip.control.observer_feedback import ObserverFeedback
 from softgrip.dynamics.second_order import SecondOrder
-from softgrip.gripper.internal_model import InternalModelController
+from softgrip.gripper.internal_model import PERIOD, InternalModelController
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.optimal_feedforward import OptimalFeedforward, trade_off
 from softgrip.gripper.plant import Gripper
@@ -22,7 +22,6 @@ from softgrip.provenance import data_file
 from softgrip.rig.gripper_calibration import push_commands
 from softgrip.rig.gripper_loop import CommandSequence, GripperController, OnTheMean
 from softgrip.rig.gripper_parameters import LEFT, RIGHT, TRAVEL, printed_gripper
-from softgrip.rig.gripper_rig import PERIOD
 from softgrip.rig.gripper_tests import identified_gripper, read_runs
 from softgrip.units import DEG
 

@@ -5,8 +5,8 @@ from typing import Protocol
 import numpy as np
 
 from softgrip.materials.arrays import Floats
-from softgrip.rig.gripper_parameters import GripperParameters
 from softgrip.rig.laws import Value, absolute_pressure, leak
+from softgrip.rig.parameters import GripperParameters
 
 AMOUNT, SENSED_PRESSURE, FINGERS = range(3)
 """Rows of the state: n R T (J), Pa gauge, then the rows of each finger, then those of a contact."""

@@ -6,20 +6,22 @@ left finger is the first. What a controller knows comes from the logs in open lo
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.gripper.internal_model import PERIOD
 from softgrip.materials.arrays import Floats
 from softgrip.provenance import Provenance
-from softgrip.rig.closed_loop_logs import SEED
+from softgrip.rig.chance import SEED
 from softgrip.rig.gripper_calibration import OPEN_LOOP_DURATION, push_commands
 from softgrip.rig.gripper_calibration_table import FILE
 from softgrip.rig.gripper_control import gripper_controller, own_model, target_angles
 from softgrip.rig.gripper_loop import CommandSequence, GripperController, drive_gripper
 from softgrip.rig.gripper_parameters import TRAVEL, printed_gripper
-from softgrip.rig.gripper_rig import PERIOD, GripperRig
+from softgrip.rig.gripper_rig import GripperRig
 from softgrip.rig.gripper_tests import column
 from softgrip.rig.log_schema import LogHeader
 from softgrip.rig.logs import LogWriter
@@ -108,32 +110,24 @@ _RECIPES = {
     ),
 }
 
-GRIPPER_LOGS = {
-    f"gripper-{name}-{run + 1}": (recipe, run)
-    for name, recipe in _RECIPES.items()
-    for run in range(RUNS)
-}
-"""Recipe and number of the run of each log, by name; those of the open loop come first."""
-
 
 def names_of(kind: str) -> tuple[str, ...]:
     """Return the names below ``data/`` of the logs of a kind, such as "open"."""
     return tuple(f"simulated/gripper-{kind}-{run + 1}.csv" for run in range(RUNS))
 
 
-def write_gripper_log(name: str, path: Path, source: str) -> None:
+def write_gripper_log(recipe: GripperRecipe, run: int, path: Path, source: str) -> None:
     """Write one log; the path must be free.
 
     Parameters
     ----------
-    name
-        A key of `GRIPPER_LOGS`.
+    recipe, run
+        How it is made, and the number of the run.
     path
         Of the log.
     source
         The command that makes it.
     """
-    recipe, run = GRIPPER_LOGS[name]
     rig = GripperRig(printed_gripper(), seed=SEED, first=run)
     made = drive_gripper(rig, recipe.controller(), duration=recipe.duration, push=recipe.push)
     pump, fingers = rig.parameters.pump, range(len(rig.parameters.fingers))
@@ -181,3 +175,11 @@ def _event(recipe: GripperRecipe, time: float) -> str:
     if abs(time - PUSH_FROM) < PERIOD / 2:
         return "push on the left finger"
     return "released" if abs(time - PUSH_UNTIL) < PERIOD / 2 else ""
+
+
+LOGS = {
+    f"gripper-{name}-{run + 1}": partial(write_gripper_log, recipe, run)
+    for name, recipe in _RECIPES.items()
+    for run in range(RUNS)
+}
+"""What writes each log, by name, to a path, with the command that makes it; open loop first."""

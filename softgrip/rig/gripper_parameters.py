@@ -9,13 +9,12 @@ the first row. Then the angles, the rows and "responds faster" (a softer finger 
 ahead at all times) agree, and the equivalent masses differ by a few percent only, as they should.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 from scipy.integrate import quad
 from scipy.special import erf
 
-from softgrip.errors import InvalidInputError
 from softgrip.gripper.plant import PRINTED
 from softgrip.gripper.uncertainty import DAMPING_BOUND, STIFFNESS_BOUND
 from softgrip.rig.calibration import (
@@ -26,9 +25,8 @@ from softgrip.rig.calibration import (
 )
 from softgrip.rig.parameters import (
     FingerParameters,
-    GasParameters,
+    GripperParameters,
     PumpParameters,
-    SensorParameters,
     Spread,
 )
 from softgrip.units import DEG, ML
@@ -42,6 +40,7 @@ LEFT, RIGHT = PRINTED.fingers[1], PRINTED.fingers[0]
 """What the step tests of the two identify (Section 6.4), by the reading above."""
 COMMON_PRESSURE = FULL_PRESSURE * (45 * DEG / FULL_ANGLE) ** DESIGN_1.fractional_power
 """Pa: what bends Design 1 to pi/4 (assumed; no pressure is printed)."""
+PUMP = PumpParameters(area=AREA, syringe_volume=SYRINGE)
 INERTIA, DAMPING = (2.495e-3, 2.647e-3), (7.345e-3, 8.666e-3)
 """kg m^2 and N m s/rad, left and right: with these an open-loop step, without noise, identifies
 `LEFT` and `RIGHT`. `gripper_calibration` finds them."""
@@ -51,41 +50,6 @@ BOUND_RUNS = 7
 """Runs of which the printed bounds are the largest deviation (assumed)."""
 VOLUME_SPREAD = 0.03
 """Finger to finger, of the air at rest (assumed)."""
-
-
-@dataclass(frozen=True)
-class GripperParameters:
-    """All of a simulated gripper: fingers on one syringe, one pressure sensor, a flex sensor each.
-
-    Attributes
-    ----------
-    fingers
-        One to five, with as many branches of memory each.
-    spread
-        From run to run, of each finger by itself; the leak is common.
-
-    Raises
-    ------
-    InvalidInputError
-        If the fingers are none, too many, or have other numbers of branches.
-    """
-
-    fingers: tuple[FingerParameters, ...]
-    pump: PumpParameters = field(
-        default_factory=lambda: PumpParameters(area=AREA, syringe_volume=SYRINGE)
-    )
-    gas: GasParameters = field(default_factory=GasParameters)
-    sensors: SensorParameters = field(default_factory=SensorParameters)
-    spread: Spread = field(default_factory=Spread)
-
-    def __post_init__(self) -> None:
-        branches = {len(finger.memory) for finger in self.fingers}
-        if not 1 <= len(self.fingers) <= 5 or len(branches) != 1:
-            raise InvalidInputError(
-                "fingers",
-                expected="one to five, with as many branches of memory each",
-                got=(len(self.fingers), branches),
-            )
 
 
 def largest_of(count: int) -> float:
@@ -132,7 +96,7 @@ def printed_gripper(*, spread: bool = True) -> GripperParameters:
     """Return the two-finger gripper of Section 6.4, left finger first; `spread` as `design_1`."""
     between_runs = run_to_run() if spread else Spread()
     fingers = tuple(map(finger_of, OPEN_LOOP_ANGLES, INERTIA, DAMPING))
-    return GripperParameters(fingers, spread=between_runs)
+    return GripperParameters(fingers, PUMP, spread=between_runs)
 
 
 def drawn_gripper(count: int, *, seed: int = 0, spread: bool = True) -> GripperParameters:

@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 
 from softgrip.control.step_metrics import final_value
+from softgrip.gripper.internal_model import PERIOD
 from softgrip.gripper.plant import FingerDynamics
 from softgrip.gripper.uncertainty import (
     bounding_weight,
@@ -16,13 +17,13 @@ from softgrip.gripper.uncertainty import (
 from softgrip.materials.arrays import Floats
 from softgrip.provenance import data_file
 from softgrip.pump.finger import Finger, swept_volume
-from softgrip.rig.closed_loop_logs import SEED
+from softgrip.rig.chance import SEED
 from softgrip.rig.gripper_calibration import step_identifies
 from softgrip.rig.gripper_control import gripper_controller, own_model, target_angles
 from softgrip.rig.gripper_logs import PUSH_FROM, PUSH_UNTIL, RUNS, names_of, push_left
 from softgrip.rig.gripper_loop import drive_gripper
 from softgrip.rig.gripper_parameters import TRAVEL, printed_gripper
-from softgrip.rig.gripper_rig import PERIOD, GripperRig
+from softgrip.rig.gripper_rig import GripperRig
 from softgrip.rig.gripper_tests import GripperLogs, each_identified, read_runs
 from softgrip.units import DEG
 

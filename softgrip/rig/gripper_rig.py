@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 from softgrip.dynamics.integrate import RungeKutta
 from softgrip.errors import InvalidInputError
+from softgrip.gripper.internal_model import PERIOD
 from softgrip.materials.arrays import Floats
 from softgrip.rig import motor
 from softgrip.rig.chance import streams
@@ -20,12 +21,9 @@ from softgrip.rig.gripper_laws import (
     Contact,
     GripperPlant,
 )
-from softgrip.rig.gripper_parameters import GripperParameters
+from softgrip.rig.parameters import GripperParameters
 from softgrip.rig.plant import LARGEST_STEP
 from softgrip.rig.sensors import Measurement, from_counts, to_counts
-
-PERIOD = 0.1
-"""Sampling period, s (Section 6.4)."""
 
 
 @dataclass(frozen=True)

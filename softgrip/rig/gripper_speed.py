@@ -11,13 +11,14 @@ from pathlib import Path
 
 import numpy as np
 
+from softgrip.gripper.internal_model import PERIOD
 from softgrip.materials.arrays import Floats
 from softgrip.provenance import data_file, data_folder
-from softgrip.rig.closed_loop_logs import SEED
+from softgrip.rig.chance import SEED
 from softgrip.rig.gripper_logs import REST, low_speed_commands
 from softgrip.rig.gripper_loop import CommandSequence, drive_gripper
 from softgrip.rig.gripper_parameters import printed_gripper
-from softgrip.rig.gripper_rig import PERIOD, GripperRig
+from softgrip.rig.gripper_rig import GripperRig
 from softgrip.units import DEG, REV
 
 FILE = "gripper/speed_spread.csv"

@@ -15,8 +15,8 @@ from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.gripper.plant import FingerDynamics, Gripper
 from softgrip.gripper.uncertainty import deviation
 from softgrip.materials.arrays import Floats
-from softgrip.rig.log_runs import read_alike
 from softgrip.rig.log_schema import Log
+from softgrip.rig.repeated_steps import read_alike
 
 
 def column(name: str, finger: int) -> str:

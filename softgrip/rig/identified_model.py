@@ -16,8 +16,8 @@ from softgrip.provenance import data_file
 from softgrip.pump.flow import flow
 from softgrip.rig.log_pump import pump_of
 from softgrip.rig.log_reader import read_log
-from softgrip.rig.log_runs import read_alike
 from softgrip.rig.push_log import check_start, swept_volume
+from softgrip.rig.repeated_steps import read_alike
 
 STEP_LOGS = tuple(f"simulated/step-60-{run}.csv" for run in range(1, 8))
 PUSH_LOG = "simulated/push-a.csv"

@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from softgrip.provenance import data_file, data_folder
-from softgrip.rig.pad_logs import read_contacts
+from softgrip.rig.contacts_log import read_contacts
 from softgrip.tactile.accuracy_interval import Accuracy
 from softgrip.tactile.contact_kind import bagged_neighbours, classifiers, nearest_neighbours
 from softgrip.tactile.contacts import Contacts

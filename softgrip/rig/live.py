@@ -9,12 +9,12 @@ from weakref import WeakSet
 from numpy.typing import ArrayLike
 
 from softgrip.errors import InvalidInputError
-from softgrip.rig.closed_loop import controller
-from softgrip.rig.connection import Connection, one_speed
+from softgrip.rig.connection import Connection
 from softgrip.rig.driver import Rig
 from softgrip.rig.experiment import Recording, record
 from softgrip.rig.live_experiment import LiveExperiment, MovingReference
 from softgrip.rig.live_rig import check_period, listens
+from softgrip.rig.motor import one_speed
 
 _STARTED: "WeakSet[LiveRun]" = WeakSet()
 
@@ -58,14 +58,16 @@ class LiveRun:
     Examples
     --------
     >>> import tempfile
+    >>> import numpy as np
     >>> from softgrip.rig.connect import connect
-    >>> from softgrip.rig.live_experiment import experiments
+    >>> from softgrip.control.pid import PID, Gains
+    >>> step = LiveExperiment("step", np.full(41, 0.5), lambda: PID(Gains(kp=5.0)), "half a radian")
     >>> with connect("simulated") as rig:
     ...     path = Path(tempfile.mkdtemp()) / "log.csv"
-    ...     run = LiveRun(rig, experiments()["staircase"], path, real_time=False)
+    ...     run = LiveRun(rig, step, path, real_time=False)
     ...     run.start()
     ...     run.wait().samples
-    624
+    41
     """
 
     def __init__(
@@ -85,7 +87,7 @@ class LiveRun:
         self.error: Exception | None = None
         self._rest, self._paced = rest, real_time and not isinstance(connection, Rig)
         self._control = MovingReference(
-            controller("full"), experiment.reference, connection.fingers
+            experiment.controller(), experiment.reference, connection.fingers
         )
         self._command, self._begun = 0.0, 0.0
         self._halt = threading.Event()

@@ -1,9 +1,6 @@
-"""The experiments of the live page: a step and a staircase of Chapter 4, of one moving reference.
+"""What a live run follows: a reference that moves, and the controller that follows it."""
 
-The gains are those of `rig.pid_gains`, designed on the simulated rig: on another rig they are a
-first guess, and `python -m softgrip.rig.pid_gains` tells how they were found.
-"""
-
+from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -14,12 +11,6 @@ from numpy.typing import ArrayLike
 from softgrip.control.loop import Controller
 from softgrip.control.pid import PERIOD
 from softgrip.materials.arrays import Floats
-from softgrip.rig.staircase import staircase
-from softgrip.units import DEG
-
-STEP = 60 * DEG
-STEP_FOR = 15.0
-"""s."""
 
 
 @dataclass(frozen=True)
@@ -32,12 +23,15 @@ class LiveExperiment:
         For the log's name.
     reference
         rad, shape (N,), a sample each 25 ms.
+    controller
+        Makes what follows it, from one angle to motor speed.
     shows
         In words, for the log.
     """
 
     name: str
     reference: Floats
+    controller: Callable[[], Controller]
     shows: str
 
     @property
@@ -58,24 +52,6 @@ class LiveExperiment:
         made = Path(folder)
         made.mkdir(parents=True, exist_ok=True)
         return made / f"{self.name}-{datetime.now():%Y-%m-%d-%H%M%S-%f}.csv"
-
-
-def experiments() -> dict[str, LiveExperiment]:
-    """Return the experiments by name.
-
-    Examples
-    --------
-    >>> {name: round(one.duration, 3) for name, one in experiments().items()}
-    {'step': 15.0, 'staircase': 15.575}
-    """
-    step = np.full(round(STEP_FOR / PERIOD) + 1, STEP)
-    found = (
-        LiveExperiment("step", step, "a step to 60 deg; PID designed on Eq. (4.15)"),
-        LiveExperiment(
-            "staircase", staircase(period=PERIOD), "Figure 4.7: staircase; PID of Eq. (4.15)"
-        ),
-    )
-    return {one.name: one for one in found}
 
 
 class MovingReference:

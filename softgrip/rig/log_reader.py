@@ -9,7 +9,7 @@ from typing import cast
 import numpy as np
 
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.provenance import Provenance
+from softgrip.provenance import Provenance, data_file
 from softgrip.rig.log_gaps import check_period, gaps_of, places
 from softgrip.rig.log_schema import EVENT, KNOWN_UNITS, SCHEMA, Log, LogHeader, SetUp
 
@@ -162,3 +162,8 @@ def read_log(path: Path | str) -> Log:
     )
     gaps = gaps_of(log)
     return replace(log, repairs=(*repairs, places(gaps))) if gaps else log
+
+
+def kept_log(name: str) -> Path:
+    """Return the path of a simulated log that the book brings, such as ``push-a``."""
+    return data_file(f"simulated/{name}.csv").path

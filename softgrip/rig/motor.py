@@ -1,7 +1,9 @@
 """The stepper motor and the plunger: what a commanded speed makes of them, in closed form."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from softgrip.errors import InvalidInputError
 from softgrip.materials.arrays import Floats
 from softgrip.rig.parameters import PumpParameters
 
@@ -47,3 +49,15 @@ def travel(start: Floats, command: Floats, elapsed: Floats, pump: PumpParameters
     # While it ramps the motor is behind the target by `change` less what it has gained.
     way: Floats = pump.advance * (target * elapsed - lost)
     return way
+
+
+def one_speed(command: ArrayLike) -> float:
+    """Return a command of any shape with one element as a number, rad/s.
+
+    >>> one_speed([[2]])
+    2.0
+    """
+    values = np.asarray(command, dtype=np.float64)
+    if values.size != 1 or not np.isfinite(values).all():
+        raise InvalidInputError("command", expected="one finite motor speed, rad/s", got=command)
+    return float(values.item())

@@ -1,7 +1,6 @@
 """The simulated grasp of Section 2.4: gripper, object and force layer, as a plant of the loop."""
 
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,17 +9,9 @@ from softgrip.control.loop import run_loop
 from softgrip.control.pid import PERIOD, Gains
 from softgrip.materials.arrays import Floats
 from softgrip.rig.chance import streams
-from softgrip.rig.force_layer import ForceLayer, layer_voltage, read_counts, volts
-from softgrip.rig.force_layer_study import to_force
+from softgrip.rig.force_layer import ForceLayer, layer_voltage, read_counts
 from softgrip.rig.pad_grasp_gripper import GraspGripper, Squeeze, servo_position
 from softgrip.tactile.force_control import Command, ForceController
-
-
-@cache
-def count_forces() -> Floats:
-    """Return the force that the regressor says for each count of the converter, N."""
-    layer = ForceLayer()
-    return to_force(volts(np.arange(layer.largest_count + 1), layer))
 
 
 class PadGrasp:
@@ -32,6 +23,8 @@ class PadGrasp:
         How the force rises.
     gripper
         The gripper, open at position 0.
+    told
+        What force the pad says for each count of its converter, N, shape (counts,).
     samples
         Most measurements that will be taken.
     runs, seed
@@ -44,9 +37,16 @@ class PadGrasp:
     """
 
     def __init__(
-        self, squeeze: Squeeze, gripper: GraspGripper, *, samples: int, runs: int, seed: int
+        self,
+        squeeze: Squeeze,
+        gripper: GraspGripper,
+        told: Floats,
+        *,
+        samples: int,
+        runs: int,
+        seed: int,
     ) -> None:
-        self._squeeze, self._gripper, self._layer = squeeze, gripper, ForceLayer()
+        self._squeeze, self._gripper, self._layer, self._told = squeeze, gripper, ForceLayer(), told
         chance = [streams(seed, run) for run in range(runs)]
         drawn = np.array([own.standard_normal() for own, _ in chance])
         self._felt_part = np.exp(self._layer.object_seating * drawn)
@@ -68,7 +68,7 @@ class PadGrasp:
         felt = (1 - sum(layer.memory)) * force + np.array(layer.memory) @ self._lagged
         voltage = layer_voltage(self._felt_part * felt, 0.0, layer)
         self.force.append(force)
-        return count_forces()[read_counts(voltage, next(self._noise), layer)]
+        return np.asarray(self._told[read_counts(voltage, next(self._noise), layer)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +95,7 @@ def grasp(
     squeeze: Squeeze,
     gains: Gains,
     desired: float,
+    told: Floats,
     *,
     command: Command = "change",
     gripper: GraspGripper | None = None,
@@ -112,6 +113,8 @@ def grasp(
         As of `ForceController`.
     desired
         Contact force, N.
+    told
+        As of `PadGrasp`.
     gripper
         None for `GraspGripper`.
     duration
@@ -121,7 +124,7 @@ def grasp(
     """
     gripper = gripper or GraspGripper()
     samples = round(duration / PERIOD) + 2
-    plant = PadGrasp(squeeze, gripper, samples=samples, runs=runs, seed=seed)
+    plant = PadGrasp(squeeze, gripper, told, samples=samples, runs=runs, seed=seed)
     result = run_loop(
         plant,
         ForceController(gains, command, speed=gripper.speed),

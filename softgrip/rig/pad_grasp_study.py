@@ -15,6 +15,8 @@ import numpy as np
 from softgrip.control.pid import PERIOD, Gains
 from softgrip.control.step_metrics import step_metrics
 from softgrip.materials.arrays import Floats
+from softgrip.rig.force_layer import ForceLayer, volts
+from softgrip.rig.force_layer_study import to_force
 from softgrip.rig.pad_grasp import GraspRecord, grasp
 from softgrip.rig.pad_grasp_gripper import GraspGripper, Squeeze, squeeze
 from softgrip.rig.pad_objects import pad_object
@@ -65,6 +67,13 @@ def largest_stiffness() -> float:
     return max(found.stiffness(desired_force(name)) for name, found in squeezes().items())
 
 
+@cache
+def count_forces() -> Floats:
+    """Return the force that the regressor says for each count of the converter, N."""
+    layer = ForceLayer()
+    return to_force(volts(np.arange(layer.largest_count + 1), layer))
+
+
 def study_gains(factor: float = 1.0) -> Gains:
     """Return the gains for the command as a change, one pair for all objects, times a factor."""
     gripper = GraspGripper()
@@ -81,7 +90,7 @@ def position_gains() -> Gains:
 def study(name: str, factor: float = 1.0) -> GraspRecord:
     """Simulate the grasps of an object, by its printed name; gains as of `study_gains`."""
     gains = study_gains(factor)
-    return grasp(squeezes()[name], gains, desired_force(name), runs=RUNS, seed=SEED)
+    return grasp(squeezes()[name], gains, desired_force(name), count_forces(), runs=RUNS, seed=SEED)
 
 
 @cache
@@ -91,6 +100,7 @@ def position_study(name: str, opening: float = 0.0) -> GraspRecord:
         squeezes()[name],
         position_gains(),
         desired_force(name),
+        count_forces(),
         command="position",
         gripper=replace(GraspGripper(), opening=opening),
         runs=RUNS,

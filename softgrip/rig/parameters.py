@@ -212,3 +212,38 @@ class RigParameters:
     gas: GasParameters = field(default_factory=GasParameters)
     sensors: SensorParameters = field(default_factory=SensorParameters)
     spread: Spread = field(default_factory=Spread)
+
+
+@dataclass(frozen=True)
+class GripperParameters:
+    """All of a simulated gripper: fingers on one syringe, one pressure sensor, a flex sensor each.
+
+    Attributes
+    ----------
+    fingers
+        One to five, with as many branches of memory each.
+    pump
+        Common to all.
+    spread
+        From run to run, of each finger by itself; the leak is common.
+
+    Raises
+    ------
+    InvalidInputError
+        If the fingers are none, too many, or have other numbers of branches.
+    """
+
+    fingers: tuple[FingerParameters, ...]
+    pump: PumpParameters = field(default_factory=PumpParameters)
+    gas: GasParameters = field(default_factory=GasParameters)
+    sensors: SensorParameters = field(default_factory=SensorParameters)
+    spread: Spread = field(default_factory=Spread)
+
+    def __post_init__(self) -> None:
+        branches = {len(finger.memory) for finger in self.fingers}
+        if not 1 <= len(self.fingers) <= 5 or len(branches) != 1:
+            raise InvalidInputError(
+                "fingers",
+                expected="one to five, with as many branches of memory each",
+                got=(len(self.fingers), branches),
+            )

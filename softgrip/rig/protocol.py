@@ -2,8 +2,8 @@
 
 A frame (`softgrip.rig.framing`) is a message's id, a sequence number and its fields, little-endian
 and unpadded. The header of the firmware, ``firmware/softgrip_rig/protocol.h``, is made from this
-table by ``python -m softgrip.rig.protocol``, so that the two sides cannot disagree unseen: HELLO
-carries the table's checksum, and the board refuses another one.
+table by ``python -m softgrip.rig.firmware.header``, so that the two sides cannot disagree unseen:
+HELLO carries the table's checksum, and the board refuses another one.
 
 Sequence numbers. The host numbers its frames 0 to 255 and round again; an answer bears the number
 of what it answers. HELLO sets the count. Of the others, the board carries out a frame 1 to 127
@@ -187,8 +187,3 @@ TABLE = crc32(
     ).encode()
 )
 """Checksum of all of the above that the two sides must agree on; words may change."""
-
-if __name__ == "__main__":
-    from softgrip.rig.firmware.header import main
-
-    main()

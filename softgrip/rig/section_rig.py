@@ -9,10 +9,11 @@ from softgrip.actuator.section import Section, chamber_area, check_section, torq
 from softgrip.dynamics.identify import Identified, identify
 from softgrip.errors import InvalidInputError
 from softgrip.rig.calibration import OPERATING_ANGLE, design_1
+from softgrip.rig.chance import SEED
 from softgrip.rig.parameters import RigParameters
 from softgrip.rig.step_tests import simulate_step_test, travel_to
 
-RUNS, SEED = 7, 2024
+RUNS = 7
 
 
 def rig_with(section: Section) -> RigParameters:

@@ -1,6 +1,6 @@
 """From what the sensors feel to counts of the converter, and back to pressure and angle."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,4 +93,15 @@ def measure(
         from_counts(angle_counts, sensors.angle_range, sensors),
         pressure_counts,
         angle_counts,
+    )
+
+
+def by_finger(found: Measurement) -> Measurement:
+    """Return a measurement of one run with its angles as shape (fingers, 1)."""
+    return replace(
+        found,
+        pressure=found.pressure.reshape(1),
+        angle=found.angle.reshape(-1, 1).copy(),
+        pressure_counts=found.pressure_counts.reshape(1),
+        angle_counts=found.angle_counts.reshape(-1, 1),
     )

@@ -9,13 +9,13 @@ from softgrip.errors import InvalidInputError
 from softgrip.provenance import Provenance
 from softgrip.rig.calibration import FULL_PRESSURE, design_1
 from softgrip.rig.calibration_table import FILE
-from softgrip.rig.connection import Interlock, by_finger
+from softgrip.rig.connection import Interlock
 from softgrip.rig.gripper_calibration_table import FILE as GRIPPER_FILE
 from softgrip.rig.gripper_parameters import printed_gripper
 from softgrip.rig.gripper_rig import GripperRig
 from softgrip.rig.log_schema import LogHeader
 from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.sensors import Measurement
+from softgrip.rig.sensors import Measurement, by_finger
 
 
 def simulated_finger(*, seed: int = 0) -> "SimulatedConnection":

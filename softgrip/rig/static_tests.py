@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from softgrip.errors import InvalidInputError
 from softgrip.materials.arrays import Floats
 from softgrip.rig.calibration import design_1, design_2, design_3
-from softgrip.rig.chance import Chance
+from softgrip.rig.chance import SEED, Chance
 from softgrip.rig.parameters import FingerParameters, RigParameters
 from softgrip.units import GRAM_FORCE, MM
 
@@ -76,7 +76,7 @@ def blocked_torque(
 
 
 def settled_angles(
-    rig: RigParameters, pressure: ArrayLike, *, runs: int = 7, seed: int = 2024
+    rig: RigParameters, pressure: ArrayLike, *, runs: int = 7, seed: int = SEED
 ) -> Floats:
     """Return the angle at rest of several runs, rad, shape (runs, N).
 

@@ -20,7 +20,8 @@ from softgrip.dynamics.second_order import SecondOrder
 from softgrip.materials.arrays import Floats
 from softgrip.provenance import data_file, data_folder
 from softgrip.rig.calibration import design_1, design_3
-from softgrip.rig.closed_loop_logs import SEED
+from softgrip.rig.chance import SEED
+from softgrip.rig.repeated_steps import StepTest
 from softgrip.rig.step_test_models import (
     FINGERS,
     FORCE_PER_PRESSURE,
@@ -29,7 +30,7 @@ from softgrip.rig.step_test_models import (
     identified_at,
     rms_error,
 )
-from softgrip.rig.step_tests import StepTest, simulate_step_test, travel_to
+from softgrip.rig.step_tests import simulate_step_test, travel_to
 from softgrip.units import DEG
 
 FILE = "dynamics/step_sweep.csv"

@@ -20,7 +20,7 @@ from softgrip.errors import UnknownNameError
 from softgrip.materials.arrays import Floats
 from softgrip.provenance import data_file
 from softgrip.rig.calibration import TORQUE_PER_PRESSURE
-from softgrip.rig.step_tests import StepTest, read_step_test
+from softgrip.rig.repeated_steps import StepTest, read_step_test
 from softgrip.units import DEG, MM
 
 Kind = Literal["linear", "ludwick"]

@@ -15,6 +15,7 @@ from softgrip.errors import InvalidInputError
 from softgrip.materials.arrays import Floats
 from softgrip.materials.table import material
 from softgrip.provenance import data_file, data_folder
+from softgrip.rig.chance import SEED
 from softgrip.rig.step_sweep import RIGS
 from softgrip.rig.step_test_models import (
     ANGLES,
@@ -74,7 +75,7 @@ def each_by_itself(design: str, kind: Kind, angle: int) -> Floats:
 def at_small_angles(design: str, kind: Kind, angle: int) -> Floats:
     """Identify on a simulated step to 30 deg, without sensors."""
     rig, test = RIGS[design](), kept_test(design, angle)
-    small = simulate_step_test(rig, travel_to(rig, SMALL * DEG), runs=7, seed=2024)
+    small = simulate_step_test(rig, travel_to(rig, SMALL * DEG), runs=7, seed=SEED)
     return fit_test(small, _power(design, kind)).response(test.time, test.pressure)
 
 

@@ -1,68 +1,19 @@
-"""Step tests in open loop, Section 5.4: how they are made, and the mean of several runs."""
+"""Step tests in open loop on the simulated rig, Section 5.4."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import ceil
-from pathlib import Path
 
 import numpy as np
 from scipy.optimize import brentq
 
+from softgrip.control.pid import PERIOD
 from softgrip.materials.arrays import Floats, check_positive
-from softgrip.rig.log_runs import read_alike
 from softgrip.rig.parameters import PumpParameters, RigParameters, Spread
 from softgrip.rig.plant import SimulatedRig
+from softgrip.rig.repeated_steps import StepTest
 
-PERIOD = 0.025
-"""Sampling period, s (Section 3.4)."""
 DURATION = 6.0
 """Of a test, s (assumed)."""
-
-
-@dataclass(frozen=True)
-class StepTest:
-    """Several runs of one step and their mean, SI.
-
-    Attributes
-    ----------
-    time
-        s, shape (N,).
-    pressures, angles
-        Gauge pressure, Pa, and angle, rad, of each run, shape (runs, N).
-    """
-
-    time: Floats
-    pressures: Floats
-    angles: Floats
-
-    @property
-    def pressure(self) -> Floats:
-        """Mean over the runs, Pa, shape (N,)."""
-        return np.asarray(self.pressures.mean(axis=0))
-
-    @property
-    def angle(self) -> Floats:
-        """Mean over the runs, rad, shape (N,)."""
-        return np.asarray(self.angles.mean(axis=0))
-
-
-def read_step_test(paths: Sequence[Path | str]) -> StepTest:
-    """Read the runs of one step from their logs.
-
-    Parameters
-    ----------
-    paths
-        Logs that start at rest and at atmospheric pressure, with the same times; at least one.
-
-    Raises
-    ------
-    DataFileError
-        As of `read_alike`.
-    """
-    logs = read_alike(paths)
-    return StepTest(
-        logs[0]["time"], *(np.stack([log[name] for log in logs]) for name in ("pressure", "angle"))
-    )
 
 
 def step_commands(plunger: float) -> Floats:

@@ -5,7 +5,7 @@ import pytest
 
 from softgrip.control.loop import SPEED_LIMIT, run_loop
 from softgrip.control.minimum_time import farthest
-from softgrip.control.pid import PID
+from softgrip.control.pid import PERIOD, PID
 from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed
 from softgrip.control.state_space_plant import StateSpacePlant
 from softgrip.dynamics.second_order import full_state_space
@@ -19,8 +19,8 @@ from softgrip.rig.calibration import (
     small_signal_poles,
     small_signal_stiffness,
 )
-from softgrip.rig.closed_loop import controller, run_on_rig
-from softgrip.rig.closed_loop_logs import CLOSED_LOOPS, PERIOD, SEED
+from softgrip.rig.chance import SEED
+from softgrip.rig.closed_loop import run_on_rig
 from softgrip.rig.identified_model import (
     PUSH_LOG,
     identified_model,
@@ -28,6 +28,9 @@ from softgrip.rig.identified_model import (
     identify_finger,
 )
 from softgrip.rig.log_reader import read_log
+from softgrip.rig.logs_chapter_3 import LOGS as REGULATED
+from softgrip.rig.logs_chapter_4 import CONTROLLED
+from softgrip.rig.pid_controllers import controller
 from softgrip.rig.plant import SimulatedRig
 from softgrip.rig.simulated_logs import COMMAND, make
 from softgrip.rig.staircase import staircase
@@ -35,7 +38,7 @@ from softgrip.rig.staircase_log import lag, mean_edge, staircase_figures
 from softgrip.rig.step_log import smoothed, step_figures, step_log_figures
 from softgrip.units import DEG, ML
 
-NAMES = list(CLOSED_LOOPS)
+NAMES = [*CONTROLLED, *REGULATED]
 
 
 def kept(name):

@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 
 from softgrip.figures.exhibit import exhibit
+from softgrip.gripper.internal_model import PERIOD
 from softgrip.provenance import data_file
-from softgrip.rig.closed_loop import controller
 from softgrip.rig.closed_loop_logs import STEP
 from softgrip.rig.driver import Rig
 from softgrip.rig.experiment import record
 from softgrip.rig.gripper_control import gripper_controller, own_model, target_angles
 from softgrip.rig.gripper_loop import OnTheMean
 from softgrip.rig.gripper_parameters import printed_gripper
-from softgrip.rig.gripper_rig import PERIOD
 from softgrip.rig.gripper_tests import fingers_of
 from softgrip.rig.log_reader import read_log
+from softgrip.rig.pid_controllers import controller
 from softgrip.rig.step_log import step_log_figures
 from softgrip.units import DEG
 from tests.emulator.build import needs_emulator

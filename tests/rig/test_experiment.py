@@ -15,8 +15,8 @@ from softgrip.errors import InvalidInputError
 from softgrip.provenance import data_folder
 from softgrip.rig.board_errors import CommandRefusedError, ConnectionLostError
 from softgrip.rig.calibration import design_1
-from softgrip.rig.closed_loop import controller
-from softgrip.rig.closed_loop_logs import SEED, STEP
+from softgrip.rig.chance import SEED
+from softgrip.rig.closed_loop_logs import STEP
 from softgrip.rig.connect import connect
 from softgrip.rig.connection import ConnectionPlant
 from softgrip.rig.driver import Rig
@@ -26,6 +26,8 @@ from softgrip.rig.gripper_loop import OnTheMean
 from softgrip.rig.gripper_parameters import printed_gripper
 from softgrip.rig.gripper_rig import GripperRig
 from softgrip.rig.log_reader import read_log
+from softgrip.rig.lqr_gains import regulator
+from softgrip.rig.pid_controllers import controller
 from softgrip.rig.plant import SimulatedRig
 from softgrip.rig.protocol import Flag
 from softgrip.rig.simulated_connection import SimulatedConnection
@@ -89,7 +91,7 @@ def test_chapter_3_lqr_gives_the_log_of_its_own_loop():
     with finger() as connection:
         connection.home()
         made = run_loop(
-            ConnectionPlant(connection), controller("lqr fast"), STEP,
+            ConnectionPlant(connection), regulator("fast"), STEP,
             duration=5.0, limit=SPEED_LIMIT,
         )  # fmt: skip
     assert made.measured[0].tolist() == kept["angle"][:201].tolist()

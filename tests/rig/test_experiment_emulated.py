@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from softgrip.control.loop import SPEED_LIMIT, run_loop
+from softgrip.gripper.internal_model import PERIOD
 from softgrip.rig.board_commands import HUNG_AFTER
 from softgrip.rig.board_errors import CommandRefusedError
 from softgrip.rig.check import run_check
-from softgrip.rig.closed_loop import controller
 from softgrip.rig.closed_loop_logs import STEP
 from softgrip.rig.connection import ConnectionPlant
 from softgrip.rig.driver import Rig
@@ -15,9 +15,10 @@ from softgrip.rig.experiment import record
 from softgrip.rig.gripper_control import gripper_controller, own_model, target_angles
 from softgrip.rig.gripper_loop import OnTheMean
 from softgrip.rig.gripper_parameters import printed_gripper
-from softgrip.rig.gripper_rig import PERIOD
 from softgrip.rig.gripper_tests import fingers_of
 from softgrip.rig.log_reader import read_log
+from softgrip.rig.lqr_gains import regulator
+from softgrip.rig.pid_controllers import controller
 from softgrip.units import DEG
 from tests.emulator.build import needs_emulator
 
@@ -60,7 +61,7 @@ def test_chapter_3_lqr():
     with finger_rig() as rig:
         rig.home()
         made = run_loop(
-            ConnectionPlant(rig), controller("lqr fast"), STEP, duration=3.0, limit=SPEED_LIMIT
+            ConnectionPlant(rig), regulator("fast"), STEP, duration=3.0, limit=SPEED_LIMIT
         )
     assert made.measured[0, -40:].mean() == pytest.approx(STEP, abs=0.05 * STEP + END_NOISE)
 

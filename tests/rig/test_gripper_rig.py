@@ -8,9 +8,9 @@ import pytest
 from softgrip.errors import InvalidInputError
 from softgrip.rig.calibration import design_1
 from softgrip.rig.gripper_loop import CommandSequence, drive_gripper
-from softgrip.rig.gripper_parameters import GripperParameters, drawn_gripper, printed_gripper
+from softgrip.rig.gripper_parameters import drawn_gripper, printed_gripper
 from softgrip.rig.gripper_rig import GripperRig
-from softgrip.rig.parameters import RigParameters
+from softgrip.rig.parameters import GripperParameters, RigParameters
 from softgrip.rig.plant import SimulatedRig
 from softgrip.units import DEG, REV
 

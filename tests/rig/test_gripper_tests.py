@@ -17,7 +17,7 @@ from softgrip.rig.gripper_calibration import step_identifies
 from softgrip.rig.gripper_comparison import CRITERIA, judged
 from softgrip.rig.gripper_control import best_command, own_model, printed_model, target_angles
 from softgrip.rig.gripper_grasp import STEP, grasp
-from softgrip.rig.gripper_logs import GRIPPER_LOGS, names_of
+from softgrip.rig.gripper_logs import LOGS, names_of
 from softgrip.rig.gripper_loop import CommandSequence, Held
 from softgrip.rig.gripper_parameters import (
     LEFT,
@@ -47,7 +47,7 @@ from softgrip.rig.simulated_logs import make
 from softgrip.units import DEG, REV
 
 
-@pytest.mark.parametrize("name", [n for n in GRIPPER_LOGS if n.endswith(("-1", "-7"))])
+@pytest.mark.parametrize("name", [n for n in LOGS if n.endswith(("-1", "-7"))])
 def test_log_is_made_again_bit_for_bit(name, tmp_path):
     kept = data_file(f"simulated/{name}.csv")
     assert make(name, tmp_path).read_bytes() == kept.path.read_bytes()

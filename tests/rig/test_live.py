@@ -11,11 +11,12 @@ from softgrip.errors import InvalidInputError
 from softgrip.provenance import data_folder
 from softgrip.rig.board_errors import CommandRefusedError, ConnectionLostError
 from softgrip.rig.calibration import design_1
-from softgrip.rig.closed_loop_logs import SEED
+from softgrip.rig.chance import SEED
 from softgrip.rig.connect import connect
 from softgrip.rig.driver import Rig
 from softgrip.rig.live import LiveRun
-from softgrip.rig.live_experiment import MovingReference, experiments
+from softgrip.rig.live_experiment import MovingReference
+from softgrip.rig.live_experiments import experiments
 from softgrip.rig.live_rig import check_simulated, listens
 from softgrip.rig.log_reader import read_log
 from softgrip.rig.plant import SimulatedRig

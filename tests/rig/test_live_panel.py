@@ -14,7 +14,7 @@ from softgrip.provenance import data_folder
 from softgrip.rig.connect import connect
 from softgrip.rig.driver import Rig
 from softgrip.rig.live import Sample
-from softgrip.rig.live_experiment import experiments
+from softgrip.rig.live_experiments import experiments
 from softgrip.rig.log_reader import read_log
 from softgrip.rig.protocol import Flag
 from softgrip.units import DEG, REV

@@ -18,10 +18,10 @@ from softgrip.rig.gripper_tests import read_runs
 from softgrip.rig.identified_model import identify_capacity, identify_finger
 from softgrip.rig.log_reader import read_log
 from softgrip.rig.pressure_models import compare
+from softgrip.rig.repeated_steps import read_step_test
 from softgrip.rig.replay import ReplayConnection
 from softgrip.rig.staircase_log import mean_edge, staircase_figures
 from softgrip.rig.step_log import step_figures, step_log_figures
-from softgrip.rig.step_tests import read_step_test
 from softgrip.tactile.drift import DRIFT_WEIGHTS
 from softgrip.units import GRAM_FORCE
 from tests.rig.test_check import checked

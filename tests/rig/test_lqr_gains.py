@@ -13,8 +13,9 @@ from softgrip.errors import UnknownNameError
 from softgrip.provenance import Provenance, data_file
 from softgrip.rig import lqr_gains
 from softgrip.rig.calibration import design_1
-from softgrip.rig.closed_loop import controller, run_on_rig
-from softgrip.rig.closed_loop_logs import SEED, STEP
+from softgrip.rig.chance import SEED
+from softgrip.rig.closed_loop import run_on_rig
+from softgrip.rig.closed_loop_logs import STEP
 from softgrip.rig.identified_model import identified_model
 from softgrip.rig.plant import SimulatedRig
 from softgrip.rig.step_log import step_figures, step_log_figures
@@ -52,7 +53,7 @@ def test_unknown_design_is_refused():
 
 
 def test_printed_weights_take_three_times_the_printed_time():
-    told, true = batch(controller("lqr printed"), 100)
+    told, true = batch(lqr_gains.regulator("printed"), 100)
     # Medians 2.7 s within 5 deg and 4.2 s within 5 %; printed is 0.8 s.
     assert np.min(true.settled_5_deg) > 2.0
     assert middle(told.settled_5_deg) == pytest.approx(2.66, abs=0.1)
@@ -63,7 +64,7 @@ def test_printed_weights_take_three_times_the_printed_time():
 
 
 def test_fast_design_is_near_what_any_controller_can_do_on_the_model():
-    told, true = batch(controller("lqr fast"), 100)
+    told, true = batch(lqr_gains.regulator("fast"), 100)
     model = identified_model()
     bound = minimum_settling_time(
         full_state_space(model.finger, model.pump_gain), STEP, SPEED_LIMIT, band=5 * DEG

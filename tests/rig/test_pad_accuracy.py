@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from softgrip.provenance import data_file
+from softgrip.rig.contacts_log import read_contacts
 from softgrip.rig.pad_accuracy import ideal_responses, place_errors
-from softgrip.rig.pad_logs import read_contacts
 from softgrip.rig.pad_surface import Pose
 from softgrip.tactile.contact_line import angle_between, line_angle
 from softgrip.tactile.contact_place import place

@@ -8,13 +8,14 @@ from scipy.stats import norm
 
 from softgrip.control.pid import PERIOD
 from softgrip.rig.force_layer import ForceLayer, felt_force, layer_voltage, read_counts
-from softgrip.rig.pad_grasp import PadGrasp, count_forces, grasp
+from softgrip.rig.pad_grasp import PadGrasp, grasp
 from softgrip.rig.pad_grasp_gripper import GraspGripper
 from softgrip.rig.pad_grasp_study import (
     FRICTION,
     OBJECTS,
     RUNS,
     at_rest,
+    count_forces,
     desired_force,
     held_share,
     position_gains,
@@ -36,7 +37,7 @@ def test_memory_of_the_layer_is_that_of_its_logs(monkeypatch):
         lambda: replace(LAYER, object_seating=0.0, voltage_noise=0.0),
     )
     gripper = replace(GraspGripper(), opening=0.0)
-    plant = PadGrasp(squeezes()["egg"], gripper, samples=101, runs=1, seed=0)
+    plant = PadGrasp(squeezes()["egg"], gripper, count_forces(), samples=101, runs=1, seed=0)
     targets = 1e-3 * np.abs(np.sin(np.arange(100) / 9))
     read = [plant.advance(0.0, 0.0), *(plant.advance(x, PERIOD) for x in targets)]
     force = np.array(plant.force)[:, 0]
@@ -78,7 +79,15 @@ def test_position_rests_where_force_and_command_agree(name):
 
 def test_a_run_is_the_same_in_any_batch():
     one, many = (
-        grasp(squeezes()["carrot"], study_gains(), 0.08, duration=2.0, runs=runs, seed=3)
+        grasp(
+            squeezes()["carrot"],
+            study_gains(),
+            0.08,
+            count_forces(),
+            duration=2.0,
+            runs=runs,
+            seed=3,
+        )
         for runs in (1, 4)
     )
     np.testing.assert_array_equal(one.measured[0], many.measured[0])

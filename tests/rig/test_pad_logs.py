@@ -5,9 +5,9 @@ import pytest
 
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.provenance import Provenance, data_file
+from softgrip.rig.contacts_log import read_contacts
 from softgrip.rig.log_reader import read_log
 from softgrip.rig.log_schema import PAD_COLUMNS, LogHeader
-from softgrip.rig.pad_logs import read_contacts
 from softgrip.rig.pad_objects import FOODS
 from softgrip.rig.pad_parameters import PadParameters
 from softgrip.rig.pad_protocol import FORCES, PAD_TESTS

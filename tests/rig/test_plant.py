@@ -11,8 +11,8 @@ from softgrip.rig.angle_plant import AnglePlant
 from softgrip.rig.batches import in_parts
 from softgrip.rig.calibration import design_1
 from softgrip.rig.capacity_check import constant_capacity_error, least_air_swept
+from softgrip.rig.logs_chapter_5 import STEP_PLUNGER, STEPS
 from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.simulated_logs import STEP_PLUNGER, recipes
 from softgrip.units import DEG, ML, REV
 
 RIG = design_1()
@@ -140,7 +140,7 @@ def test_run_to_run_spread_is_the_printed_one():
     # here takes more air and so sees less of it: some 10 %, and 4 % of scatter from 300 runs.
     spread = []
     for angle in STEP_PLUNGER:
-        commands = recipes()[f"step-{angle}-1"].commands
+        commands = STEPS[f"step-{angle}-1"].commands
         _, truth = SimulatedRig(RIG, runs=300).open_loop(commands)
         assert np.median(truth.angle[-1]) / DEG == pytest.approx(angle, abs=1.0)
         spread.append(truth.angle[-1].std() / DEG)

@@ -61,7 +61,7 @@ def test_a_table_that_changes_is_another_version():
 
 
 def test_the_header_is_up_to_date():
-    # Else run: python -m softgrip.rig.protocol
+    # Else run: python -m softgrip.rig.firmware.header
     assert header.HEADER.read_text() == header.header()
 
 

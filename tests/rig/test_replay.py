@@ -7,12 +7,12 @@ from softgrip.control.state_feedback import SPEED_DIGITS
 from softgrip.errors import DataFileError
 from softgrip.provenance import data_folder
 from softgrip.rig.board_errors import EndOfReplayError
-from softgrip.rig.closed_loop import controller
 from softgrip.rig.closed_loop_logs import STEP
 from softgrip.rig.connect import connect
 from softgrip.rig.experiment import record
 from softgrip.rig.gripper_loop import OnTheMean
 from softgrip.rig.log_reader import read_log
+from softgrip.rig.pid_controllers import controller
 from softgrip.rig.replay import ReplayConnection
 
 FOLDER = data_folder() / "simulated"

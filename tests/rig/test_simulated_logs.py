@@ -6,12 +6,14 @@ import pytest
 from softgrip.errors import UnknownNameError
 from softgrip.provenance import Provenance, data_file
 from softgrip.rig.log_reader import read_log
+from softgrip.rig.logs_chapter_4 import PUSHES
+from softgrip.rig.logs_chapter_5 import STEPS
 from softgrip.rig.parameters import SensorParameters
 from softgrip.rig.sensors import from_counts
-from softgrip.rig.simulated_logs import COMMAND, main, make, recipes
+from softgrip.rig.simulated_logs import COMMAND, main, make
 from softgrip.units import ML, MPa
 
-NAMES = list(recipes())
+NAMES = [*PUSHES, *STEPS]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -46,7 +48,7 @@ def test_each_push_sweeps_about_the_same_air_in_its_own_time():
     # From 60 mL each, the same pressure takes nearly the same sweep; speed sets the time.
     swept = {}
     for name in ("push-a", "push-b", "push-c", "push-d"):
-        pump = recipes()[name].pump
+        pump = PUSHES[name].pump
         log = read_log(data_file(f"simulated/{name}.csv").path)
         swept[name] = pump.area * pump.advance * log["command"][0] * log["time"][-1] / ML
     assert all(57 < air < 62 for air in swept.values())

@@ -8,12 +8,13 @@ import pytest
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.provenance import data_file
 from softgrip.rig.calibration import design_1, design_3
+from softgrip.rig.chance import SEED
 from softgrip.rig.log_reader import read_log
+from softgrip.rig.logs_chapter_5 import STEP_PLUNGER, STEP_PLUNGER_FX
 from softgrip.rig.parameters import PumpParameters
 from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.simulated_logs import SEED, STEP_PLUNGER, STEP_PLUNGER_FX
+from softgrip.rig.repeated_steps import read_step_test
 from softgrip.rig.step_tests import (
-    read_step_test,
     simulate_step_test,
     step_commands,
     travel_to,

@@ -44,7 +44,7 @@ def _struct(message: Message) -> str:
 def header() -> str:
     """Return the header's text."""
     parts = [
-        "// Made from softgrip/rig/protocol.py by: python -m softgrip.rig.protocol",
+        "// Made from softgrip/rig/protocol.py by: python -m softgrip.rig.firmware.header",
         "// Do not edit.",
         "#pragma once",
         "#include <stdint.h>",
@@ -71,3 +71,7 @@ def main() -> None:
     """Write the header."""
     HEADER.write_text(header())
     print(f"wrote {HEADER}")
+
+
+if __name__ == "__main__":
+    main()

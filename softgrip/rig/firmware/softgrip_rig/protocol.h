@@ -1,4 +1,4 @@
-// Made from softgrip/rig/protocol.py by: python -m softgrip.rig.protocol
+// Made from softgrip/rig/protocol.py by: python -m softgrip.rig.firmware.header
 // Do not edit.
 #pragma once
 #include <stdint.h>

@@ -1,0 +1,18 @@
+"""How the simulated logs of Chapter 3 are made: the regulators of Figure 3.12."""
+
+from functools import partial
+
+from softgrip.rig.closed_loop_logs import ClosedLoopRecipe, write_closed_loop
+from softgrip.rig.lqr_gains import FILE, regulator
+
+LOGS = {
+    f"lqr-{design}": partial(
+        write_closed_loop,
+        ClosedLoopRecipe(partial(regulator, design), f"lqr {design}", FILE, words),
+    )
+    for design, words in (
+        ("printed", "Figure 3.12: 60 deg, LQR with the weights of Eq. (3.29)"),
+        ("fast", "Figure 3.12: 60 deg, LQR made faster"),
+    )
+}
+"""What writes each log, by name, to a path, with the command that makes it."""

@@ -1,0 +1,33 @@
+"""How the simulated logs of Chapter 5 are made: seven steps of two fingers to two angles each."""
+
+from functools import partial
+
+from softgrip.rig.calibration import design_1, design_3
+from softgrip.rig.open_loop_logs import OpenLoopRecipe, write_open_loop
+from softgrip.rig.parameters import PumpParameters
+from softgrip.rig.step_tests import step_commands
+from softgrip.units import MM
+
+RUNS = 7
+STEP_PLUNGER = {60: 11.1 * MM, 90: 25.3 * MM}
+STEP_PLUNGER_FX = {60: 24.1 * MM, 90: 39.2 * MM}
+"""Travel of the plunger that settles the median finger at about these angles, deg: of Dragon Skin
+20, and of FX-Pro. They are `step_tests.travel_to`, to a tenth of a millimetre."""
+
+STEPS = {
+    f"{name}-{degrees}-{run + 1}": OpenLoopRecipe(
+        PumpParameters(),
+        run,
+        step_commands(plunger),
+        f"open-loop step to about {degrees} deg{finger}",
+        design=design,
+    )
+    for name, travels, design, finger in (
+        ("step", STEP_PLUNGER, design_1, ""),
+        ("step-fx", STEP_PLUNGER_FX, design_3, " of the finger of Dragon Skin FX-Pro"),
+    )
+    for degrees, plunger in travels.items()
+    for run in range(RUNS)
+}
+LOGS = {name: partial(write_open_loop, recipe) for name, recipe in STEPS.items()}
+"""What writes each log, by name, to a path, with the command that makes it."""

@@ -1,0 +1,79 @@
+"""Several logs of one step, Section 5.4: read together, and their mean."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from softgrip.errors import DataFileError
+from softgrip.materials.arrays import Floats
+from softgrip.rig.log_gaps import refuse_gaps
+from softgrip.rig.log_reader import read_log
+from softgrip.rig.log_schema import Log
+
+
+def read_alike(paths: Sequence[Path | str]) -> list[Log]:
+    """Read logs that have the same times.
+
+    None may have a gap: what is made of runs is their mean at each time, their spectra, and models
+    that take input and output between two samples as known.
+
+    Raises
+    ------
+    DataFileError
+        If a log cannot be read, has a gap, or other times than the first.
+    """
+    logs = [read_log(path) for path in paths]
+    time = logs[0]["time"]
+    for path, log in zip(paths, logs, strict=True):
+        refuse_gaps(path, log, "a mean of runs")
+        if log["time"].shape != time.shape or not np.allclose(log["time"], time):
+            raise DataFileError(path, expected=f"the times of {paths[0]}", got="other times")
+    return logs
+
+
+@dataclass(frozen=True)
+class StepTest:
+    """Several runs of one step and their mean, SI.
+
+    Attributes
+    ----------
+    time
+        s, shape (N,).
+    pressures, angles
+        Gauge pressure, Pa, and angle, rad, of each run, shape (runs, N).
+    """
+
+    time: Floats
+    pressures: Floats
+    angles: Floats
+
+    @property
+    def pressure(self) -> Floats:
+        """Mean over the runs, Pa, shape (N,)."""
+        return np.asarray(self.pressures.mean(axis=0))
+
+    @property
+    def angle(self) -> Floats:
+        """Mean over the runs, rad, shape (N,)."""
+        return np.asarray(self.angles.mean(axis=0))
+
+
+def read_step_test(paths: Sequence[Path | str]) -> StepTest:
+    """Read the runs of one step from their logs.
+
+    Parameters
+    ----------
+    paths
+        Logs that start at rest and at atmospheric pressure, with the same times; at least one.
+
+    Raises
+    ------
+    DataFileError
+        As of `read_alike`.
+    """
+    logs = read_alike(paths)
+    return StepTest(
+        logs[0]["time"], *(np.stack([log[name] for log in logs]) for name in ("pressure", "angle"))
+    )
