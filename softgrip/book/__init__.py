@@ -1,1 +1,0 @@
-"""How the book is built: dependency tracing, numbering, scripts for use without a network."""
