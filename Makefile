@@ -53,19 +53,19 @@ lab: $(READY)  ## open the chapters as notebooks in JupyterLab
 	@$(BIN)/jupyter lab --notebook-dir=book
 
 figures: $(READY)  ## write every figure and table to book/_build/figures
-	@$(BIN)/python -m softgrip.figures
+	@$(BIN)/python -m book.companion.figures
 
 figure-%: $(READY)
-	@$(BIN)/python -m softgrip.figures $@
+	@$(BIN)/python -m book.companion.figures $@
 
 table-%: $(READY)
-	@$(BIN)/python -m softgrip.figures $@
+	@$(BIN)/python -m book.companion.figures $@
 
 ledger: $(READY)  ## judge every printed number: book/_build/ledger.json
-	@$(BIN)/python -m softgrip.ledger
+	@$(BIN)/python -m book.companion.ledger
 
 accept: $(READY)  ## make today's verdicts the expected ones (look at the diff)
-	@$(BIN)/python -m softgrip.ledger --accept
+	@$(BIN)/python -m book.companion.ledger --accept
 
 bench: $(READY)  ## measure the speed of simulation and control: book/_build/bench.json
 	@$(BIN)/python -m tests.bench
@@ -76,7 +76,7 @@ rig-test: $(READY)  ## run the rig's tests on a board: make rig-test PORT=/dev/t
 	  -k "not simulated and not replay and not stub and not emulated"
 
 picture: book  ## take the picture of the README from the built book (needs Chromium)
-	@$(BIN)/python -m softgrip.book.picture
+	@$(BIN)/python -m book.build.picture
 
 lock: $(READY)  ## resolve the dependencies of pyproject.toml anew
 	@$(BIN)/uv pip compile pyproject.toml --all-extras --universal --generate-hashes \

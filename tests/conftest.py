@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+pytest_plugins = ["tests.board.served"]
 collect_ignore = ["bench/elastica_rod.py"]  # runs in an environment of its own
 
 ROOT = Path(__file__).parent.parent

@@ -8,7 +8,7 @@ from typing import Any
 from jupyter_cache import get_cache
 from sphinx.application import Sphinx
 
-from softgrip.book import numbering, tracing, vendor
+from book.build import api, numbering, tracing, vendor
 
 
 def _build_folder(app: Sphinx) -> Path:
@@ -79,7 +79,7 @@ def announce(app: Sphinx, page: str, _source: list[str]) -> None:
 def remove_former_modules(app: Sphinx, _error: Exception | None) -> None:
     """Remove source pages of modules that are no more: a build adds, but never takes away."""
     pages = Path(app.outdir) / "_modules"
-    for page in (pages / "softgrip").rglob("*.html"):
+    for page in [page for top in ("softgrip", "book") for page in (pages / top).rglob("*.html")]:
         source = tracing.ROOT / page.relative_to(pages).with_suffix("")
         if not (source.is_dir() or source.with_suffix(".py").is_file()):
             page.unlink()
@@ -87,6 +87,7 @@ def remove_former_modules(app: Sphinx, _error: Exception | None) -> None:
 
 def setup(app: Sphinx) -> dict[str, Any]:
     """Connect the parts to the stages of a build."""
+    api.setup(app)
     numbering.setup(app)
     app.connect("config-inited", use_local_scripts)
     app.connect("builder-inited", prepare_kernels)

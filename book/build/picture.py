@@ -1,4 +1,4 @@
-"""``python -m softgrip.book.picture``: the README's picture, taken from the built book."""
+"""``python -m book.build.picture``: the README's picture, taken from the built book."""
 
 import shutil
 from pathlib import Path

@@ -19,13 +19,15 @@ import softgrip
 
 TRACE_VARIABLE = "SOFTGRIP_PAGE_TRACE"
 ROOT = Path(softgrip.__file__).resolve().parent.parent
-WATCHED = (ROOT / "softgrip", ROOT / "data")
-BUILD = ROOT / "softgrip" / "book"  # builds the pages, and is used by none
+WATCHED = (
+    *(ROOT / "softgrip", ROOT / "data", ROOT / "book" / "companion", ROOT / "book" / "live"),
+    *sorted((ROOT / "book").glob("chapter_*")),
+)
 
 STARTUP = f"""\
 import os
 if os.environ.get({TRACE_VARIABLE!r}):
-    from softgrip.book import tracing
+    from book.build import tracing
     tracing.record(os.environ[{TRACE_VARIABLE!r}])
 """
 
@@ -65,7 +67,7 @@ def _watched(paths: Iterable[str]) -> set[Path]:
         for file in files
         if any(file.is_relative_to(top) for top in WATCHED)
         and "__pycache__" not in file.parts
-        and not file.is_relative_to(BUILD)
+        and not (file / "__init__.py").is_file()  # listed by an import, not by the page
     }
 
 

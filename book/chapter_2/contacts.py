@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softgrip.rig.chance import SEED
-from softgrip.rig.pad_objects import FOODS, OTHERS, PadObject
-from softgrip.rig.pad_surface import Pose
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.pad_objects import FOODS, OTHERS, PadObject
+from softgrip.simulator.pad_surface import Pose
 from softgrip.units import DEG, MM
 
 FORCES = (0.05, 0.3)

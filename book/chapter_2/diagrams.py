@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
-from softgrip.figures.block_diagram import arrow, block, finish, sum_point, words
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, WIDTH
+from book.companion.block_diagram import arrow, block, finish, sum_point, words
+from book.companion.exhibit import figure
+from book.companion.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, WIDTH
 from softgrip.provenance import Provenance
 
 RUBBER = "#E8EEF4"

@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from book.companion.exhibit import figure
+from book.companion.style import BLUE, GREEN, GREY, ORANGE, PRINTED, WIDTH
 from softgrip.actuator.elasticity import Elastic
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import BLUE, GREEN, GREY, ORANGE, PRINTED, WIDTH
-from softgrip.materials.arrays import Floats
+from softgrip.arrays import Floats
 from softgrip.provenance import Provenance
 from softgrip.tactile import element_results
 from softgrip.tactile.element import SHAPES, TABLE_MODULUS, Element, compliance

@@ -5,15 +5,11 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import BLUE, GREEN, GREY, MEASURED, ORANGE, SKY, VERMILION, WIDTH
-from softgrip.materials.arrays import Floats
-from softgrip.provenance import Provenance
-from softgrip.rig.force_layer_drift import DRIFT
-from softgrip.rig.force_layer_drift import kept as kept_drift
-from softgrip.rig.force_layer_logs import file_of, read
-from softgrip.rig.force_layer_protocols import CYCLE_FORCES, REPETITIONS
-from softgrip.rig.force_layer_study import (
+from book.chapter_2.force_drift import DRIFT
+from book.chapter_2.force_drift import kept as kept_drift
+from book.chapter_2.force_logs import file_of, read
+from book.chapter_2.force_protocols import CYCLE_FORCES, REPETITIONS
+from book.chapter_2.forces import (
     COMPARISON,
     RANDOM,
     WHOLE,
@@ -21,6 +17,10 @@ from softgrip.rig.force_layer_study import (
     weight_bandwidth,
     weight_points,
 )
+from book.companion.exhibit import figure
+from book.companion.style import BLUE, GREEN, GREY, MEASURED, ORANGE, SKY, VERMILION, WIDTH
+from softgrip.arrays import Floats
+from softgrip.provenance import Provenance
 from softgrip.tactile.bandwidth import left_out_error, tried_bandwidths
 from softgrip.tactile.force_comparison import regressors
 from softgrip.units import GRAM_FORCE

@@ -3,12 +3,8 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, WIDTH
-from softgrip.provenance import Provenance
-from softgrip.rig.force_layer_logs import file_of
-from softgrip.rig.pad_grasp_gripper import GraspGripper
-from softgrip.rig.pad_grasp_study import (
+from book.chapter_2.force_logs import file_of
+from book.chapter_2.grasps import (
     FRICTION,
     OBJECTS,
     desired_force,
@@ -17,6 +13,10 @@ from softgrip.rig.pad_grasp_study import (
     squeezes,
     study,
 )
+from book.companion.exhibit import figure
+from book.companion.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, WIDTH
+from softgrip.provenance import Provenance
+from softgrip.simulator.pad_gripper import GraspGripper
 from softgrip.tactile.force_control import largest_loop_gain
 from softgrip.tactile.friction import PRINTED_GRASPS, common_friction, printed_grasps
 from softgrip.tactile.lift import contact_force

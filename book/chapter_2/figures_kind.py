@@ -9,10 +9,10 @@ from numpy.typing import ArrayLike
 from sklearn.base import clone
 from sklearn.metrics import confusion_matrix
 
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import BLUE, GREY, ORANGE, PRINTED, VERMILION, WIDTH
+from book.chapter_2.kinds import OBJECTS, TRAINING, contacts, kept, kept_neighbours
+from book.companion.exhibit import figure
+from book.companion.style import BLUE, GREY, ORANGE, PRINTED, VERMILION, WIDTH
 from softgrip.provenance import Provenance
-from softgrip.rig.kind_study import OBJECTS, TRAINING, contacts, kept, kept_neighbours
 from softgrip.tactile.accuracy_interval import Accuracy
 from softgrip.tactile.contact_kind import NEIGHBOURS, bagged_neighbours, nearest_neighbours
 from softgrip.tactile.contacts import KINDS

@@ -6,19 +6,19 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import BLUE, GREEN, ORANGE, VERMILION, WIDTH
-from softgrip.figures.widgets_2_pad import draw_elements, draw_estimate, outline
-from softgrip.materials.arrays import Floats
+from book.chapter_2.contacts import PAD_SEED
+from book.chapter_2.places import PlaceErrors, ideal_responses, place_errors, responses_to
+from book.chapter_2.sliders_pad import draw_elements, draw_estimate, outline
+from book.companion.exhibit import figure
+from book.companion.style import BLUE, GREEN, ORANGE, VERMILION, WIDTH
+from softgrip.arrays import Floats
+from softgrip.logs.contacts import read_contacts
 from softgrip.provenance import Provenance, data_file
-from softgrip.rig import pad_calibration_table
-from softgrip.rig.contacts_log import read_contacts
-from softgrip.rig.pad_accuracy import PlaceErrors, ideal_responses, place_errors, responses_to
-from softgrip.rig.pad_objects import pad_object
-from softgrip.rig.pad_parameters import PadParameters
-from softgrip.rig.pad_protocol import PAD_SEED
-from softgrip.rig.pad_rig import make_pad, press
-from softgrip.rig.pad_surface import Pose
+from softgrip.simulator import pad_calibration_table
+from softgrip.simulator.pad import make_pad, press
+from softgrip.simulator.pad_objects import pad_object
+from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.simulator.pad_surface import Pose
 from softgrip.tactile.contact_line import line_angle
 from softgrip.tactile.contact_place import place
 from softgrip.tactile.contacts import KINDS, Contacts

@@ -1,4 +1,4 @@
-"""What the correction of Section 2.3 makes of drift: ``python -m softgrip.rig.force_layer_drift``.
+"""What the correction of Section 2.3 makes of drift: ``python -m book.chapter_2.force_drift``.
 
 The command keeps the errors of many simulated hours, ``data/tactile/force_drift.csv``.
 """
@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from book.chapter_2.force_logs import AGES, read
+from book.chapter_2.force_protocols import LONG_WEIGHTS, long_run
+from book.chapter_2.forces import to_force, weight_points
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 from softgrip.provenance import data_file, data_folder
-from softgrip.rig.chance import SEED
-from softgrip.rig.force_layer_logs import AGES, read
-from softgrip.rig.force_layer_protocols import LONG_WEIGHTS, long_run
-from softgrip.rig.force_layer_study import to_force, weight_points
+from softgrip.simulator.chance import SEED
 from softgrip.tactile.drift import DRIFT_WEIGHTS, DriftBetween, LinearDrift
 from softgrip.units import GRAM_FORCE
 
@@ -116,7 +116,7 @@ def write(path: Path | None = None) -> Path:
     """Make the kept errors anew, below ``data/`` or elsewhere, and return their path."""
     target = path or data_folder() / DRIFT
     header = (
-        f"# provenance: simulated\n# source: python -m softgrip.rig.force_layer_drift\n"
+        f"# provenance: simulated\n# source: python -m book.chapter_2.force_drift\n"
         f"# seed: {SEED} runs {FIRST} to {FIRST + HOURS - 1}\n"
     )
     rows = simulate().add_suffix(" [N]").to_csv(float_format="%.6g")

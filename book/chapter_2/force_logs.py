@@ -1,4 +1,4 @@
-"""Logs of the simulated force-measurement layer: ``python -m softgrip.rig.force_layer_logs``.
+"""Logs of the simulated force-measurement layer: ``python -m book.chapter_2.force_logs``.
 
 One row a reading, with the true weight as the command; what lies on the layer is in the event.
 """
@@ -10,23 +10,23 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from softgrip.errors import UnknownNameError
-from softgrip.provenance import Provenance, data_file, data_folder
-from softgrip.rig.chance import SEED
-from softgrip.rig.force_layer import ForceLayer
-from softgrip.rig.force_layer_protocols import (
+from book.chapter_2.force_protocols import (
     Reading,
     load_and_unload,
     long_run,
     put_down,
     weight_forces,
 )
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.log_schema import LogHeader
-from softgrip.rig.logs import LogWriter
+from softgrip.errors import UnknownNameError
+from softgrip.logs.reader import read_log
+from softgrip.logs.schema import LogHeader
+from softgrip.logs.writer import LogWriter
+from softgrip.provenance import Provenance, data_file, data_folder
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.force_layer import ForceLayer
 from softgrip.tactile.force import table_2_2
 
-COMMAND = "python -m softgrip.rig.force_layer_logs"
+COMMAND = "python -m book.chapter_2.force_logs"
 TIMES = 10
 """Section 2.4: each object is measured ten times."""
 

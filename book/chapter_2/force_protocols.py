@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.materials.arrays import Floats
-from softgrip.rig.chance import streams
-from softgrip.rig.force_layer import (
+from softgrip.arrays import Floats
+from softgrip.simulator.chance import streams
+from softgrip.simulator.force_layer import (
     Counts,
     ForceLayer,
     felt_force,

@@ -1,4 +1,4 @@
-"""What the simulated force layer reads: ``python -m softgrip.rig.force_layer_study``.
+"""What the simulated force layer reads: ``python -m book.chapter_2.forces``.
 
 The command keeps the comparison of regressors, ``data/tactile/force_comparison.csv``, in half a
 minute.
@@ -12,9 +12,9 @@ from types import MappingProxyType
 import numpy as np
 import pandas as pd
 
-from softgrip.materials.arrays import Floats, read_only
+from book.chapter_2.force_logs import read
+from softgrip.arrays import Floats, read_only
 from softgrip.provenance import data_file, data_folder
-from softgrip.rig.force_layer_logs import read
 from softgrip.tactile.bandwidth import best_bandwidth
 from softgrip.tactile.force import Weighing
 from softgrip.tactile.force_comparison import cross_validated, regressors, root_mean_square
@@ -105,7 +105,7 @@ def kept_comparison() -> pd.DataFrame:
 def write(path: Path | None = None) -> Path:
     """Make the kept comparison anew, below ``data/`` or elsewhere, and return its path."""
     target = path or data_folder() / COMPARISON
-    header = "# provenance: simulated\n# source: python -m softgrip.rig.force_layer_study\n"
+    header = "# provenance: simulated\n# source: python -m book.chapter_2.forces\n"
     table = compare().to_csv(index=False, float_format="%.6g")
     target.write_text(header + table, encoding="utf-8")
     return target

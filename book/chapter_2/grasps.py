@@ -12,18 +12,18 @@ from types import MappingProxyType
 
 import numpy as np
 
+from book.chapter_2.contacts import PAD_SEED
+from book.chapter_2.forces import to_force
+from softgrip.arrays import Floats
 from softgrip.control.pid import PERIOD, Gains
 from softgrip.control.step_metrics import step_metrics
-from softgrip.materials.arrays import Floats
-from softgrip.rig.force_layer import ForceLayer, volts
-from softgrip.rig.force_layer_study import to_force
-from softgrip.rig.pad_grasp import GraspRecord, grasp
-from softgrip.rig.pad_grasp_gripper import GraspGripper, Squeeze, squeeze
-from softgrip.rig.pad_objects import pad_object
-from softgrip.rig.pad_parameters import PadParameters
-from softgrip.rig.pad_protocol import PAD_SEED
-from softgrip.rig.pad_rig import make_pad
-from softgrip.rig.pad_surface import Pose
+from softgrip.simulator.force_layer import ForceLayer, volts
+from softgrip.simulator.pad import make_pad
+from softgrip.simulator.pad_grasp import GraspRecord, grasp
+from softgrip.simulator.pad_gripper import GraspGripper, Squeeze, squeeze
+from softgrip.simulator.pad_objects import pad_object
+from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.simulator.pad_surface import Pose
 from softgrip.tactile.force_control import largest_loop_gain, tuned_gains
 from softgrip.tactile.friction import printed_grasps
 from softgrip.tactile.lift import lift_force

@@ -1,4 +1,4 @@
-"""How well the kind of contact is told on the simulated pad: ``python -m softgrip.rig.kind_study``.
+"""How well the kind of contact is told on the simulated pad: ``python -m book.chapter_2.kinds``.
 
 The training log stands for the 630 responses of Section 2.3, the other log for the 80 contacts of
 Section 2.4. Right answers are kept as counts, so that intervals can be put on them.
@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from softgrip.logs.contacts import read_contacts
 from softgrip.provenance import data_file, data_folder
-from softgrip.rig.contacts_log import read_contacts
 from softgrip.tactile.accuracy_interval import Accuracy
 from softgrip.tactile.contact_kind import bagged_neighbours, classifiers, nearest_neighbours
 from softgrip.tactile.contacts import Contacts
@@ -145,7 +145,7 @@ def write() -> Iterator[Path]:
     for study, make in STUDIES.items():
         path = data_folder() / "tactile" / f"kind_{study}.csv"
         path.parent.mkdir(exist_ok=True)
-        header = "# provenance: simulated\n# source: python -m softgrip.rig.kind_study\n"
+        header = "# provenance: simulated\n# source: python -m book.chapter_2.kinds\n"
         path.write_text(header + make().to_csv(index=False), encoding="utf-8")
         yield path
 

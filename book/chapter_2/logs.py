@@ -6,15 +6,15 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from softgrip.materials.arrays import Floats
+from book.chapter_2.contacts import BETWEEN, PAD_SEED, PAD_TESTS, draw_contacts
+from softgrip.arrays import Floats
+from softgrip.logs.contacts import PRESS, REST, TRUTH, read_contacts
+from softgrip.logs.schema import PAD_CHANNELS, LogHeader
+from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance, data_file
-from softgrip.rig.chance import streams
-from softgrip.rig.contacts_log import PRESS, REST, TRUTH, read_contacts
-from softgrip.rig.log_schema import PAD_CHANNELS, LogHeader
-from softgrip.rig.logs import LogWriter
-from softgrip.rig.pad_parameters import PadParameters
-from softgrip.rig.pad_protocol import BETWEEN, PAD_SEED, PAD_TESTS, draw_contacts
-from softgrip.rig.pad_rig import convert, make_pad, press, to_volts, voltages
+from softgrip.simulator.chance import streams
+from softgrip.simulator.pad import convert, make_pad, press, to_volts, voltages
+from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.tactile.contacts import ELEMENTS
 
 FULL = 0.3
@@ -29,7 +29,7 @@ def write_pad_log(name: str, path: Path, source: str) -> None:
     Parameters
     ----------
     name
-        A key of `pad_protocol.PAD_TESTS`.
+        A key of `contacts.PAD_TESTS`.
     path
         Of the log.
     source

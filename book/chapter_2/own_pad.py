@@ -2,9 +2,9 @@
 
 from IPython.display import SVG
 
-from softgrip.figures.chapter_2_kind import draw_confusions, draw_neighbours
-from softgrip.figures.save import svg
-from softgrip.figures.style import style
+from book.chapter_2.figures_kind import draw_confusions, draw_neighbours
+from book.companion.save import svg
+from book.companion.style import style
 from softgrip.tactile.contact_kind import nearest_neighbours
 from softgrip.tactile.kind_evaluation import split_score, train_and_test
 from softgrip.tactile.own_pad import PadReadings

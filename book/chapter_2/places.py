@@ -5,11 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from softgrip.materials.arrays import Floats
-from softgrip.rig.pad_objects import pad_object
-from softgrip.rig.pad_parameters import PadParameters
-from softgrip.rig.pad_rig import Pad, make_pad, press, voltages
-from softgrip.rig.pad_surface import Pose
+from softgrip.arrays import Floats
+from softgrip.simulator.pad import Pad, make_pad, press, voltages
+from softgrip.simulator.pad_objects import pad_object
+from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.simulator.pad_surface import Pose
 from softgrip.tactile.contact_line import angle_between, line_angle
 from softgrip.tactile.contact_place import moments, place
 from softgrip.tactile.contacts import Contacts

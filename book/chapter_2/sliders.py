@@ -4,12 +4,12 @@ from functools import cache
 
 from matplotlib.figure import Figure
 
-from softgrip.figures.widgets_2_element import draw_element
-from softgrip.figures.widgets_2_force import draw_bandwidth
-from softgrip.figures.widgets_2_pad import draw_pad
-from softgrip.materials.arrays import Floats
+from book.chapter_2.sliders_element import draw_element
+from book.chapter_2.sliders_force import draw_bandwidth
+from book.chapter_2.sliders_pad import draw_pad
+from softgrip.arrays import Floats
+from softgrip.logs.contacts import read_contacts
 from softgrip.provenance import data_file
-from softgrip.rig.contacts_log import read_contacts
 from softgrip.tactile.contact_kind import bagged_neighbours
 from softgrip.tactile.pad_model_fast import FastKind
 

@@ -4,8 +4,8 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from softgrip.figures.style import BLUE, GREY, WIDTH, style
-from softgrip.materials.arrays import Floats
+from book.companion.style import BLUE, GREY, WIDTH, style
+from softgrip.arrays import Floats
 from softgrip.tactile.element import STATED_MODULUS, Element, Shape, cross_section, shortening
 from softgrip.tactile.element_resistance import AT_REST
 from softgrip.tactile.element_sensitivity import resistance_under

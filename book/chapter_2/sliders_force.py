@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from softgrip.figures.chapter_2_force import draw_points
-from softgrip.figures.style import BLUE, still, style
-from softgrip.rig.force_layer_study import weight_points
+from book.chapter_2.figures_force import draw_points
+from book.chapter_2.forces import weight_points
+from book.companion.style import BLUE, still, style
 from softgrip.tactile.bandwidth import left_out_error
 from softgrip.tactile.nadaraya_watson import NadarayaWatson
 from softgrip.units import GRAM_FORCE

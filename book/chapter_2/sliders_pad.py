@@ -9,12 +9,12 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from book.chapter_2.places import ideal_responses
+from book.companion.style import BLACK, BLUE, GREEN, still, style
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.figures.style import BLACK, BLUE, GREEN, still, style
-from softgrip.materials.arrays import Floats
-from softgrip.rig.pad_accuracy import ideal_responses
-from softgrip.rig.pad_objects import PadObject, pad_object
-from softgrip.rig.pad_surface import Pose
+from softgrip.simulator.pad_objects import PadObject, pad_object
+from softgrip.simulator.pad_surface import Pose
 from softgrip.tactile.contact_line import line_angle
 from softgrip.tactile.contact_place import FELT, place
 from softgrip.tactile.pad_layout import ELEMENT_SIDE, PAD_SIZE, THREE_TWO_THREE

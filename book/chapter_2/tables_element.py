@@ -5,7 +5,7 @@ from math import pi, sqrt
 import numpy as np
 import pandas as pd
 
-from softgrip.figures.exhibit import table
+from book.companion.exhibit import table
 from softgrip.provenance import Provenance
 from softgrip.tactile.element import STATED_MODULUS, TABLE_MODULUS, Element, shortening
 from softgrip.tactile.element_cut import cut_for, largest_for

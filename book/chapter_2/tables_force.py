@@ -2,16 +2,16 @@
 
 import pandas as pd
 
-from softgrip.figures.exhibit import table
-from softgrip.provenance import Provenance
-from softgrip.rig.force_layer_logs import file_of
-from softgrip.rig.force_layer_study import (
+from book.chapter_2.force_logs import file_of
+from book.chapter_2.forces import (
     COMPARISON,
     RANDOM,
     WHOLE,
     kept_comparison,
     weighed_objects,
 )
+from book.companion.exhibit import table
+from softgrip.provenance import Provenance
 from softgrip.tactile.force import TABLE_2_2, Weighing, table_2_2
 from softgrip.units import GRAM_FORCE
 

@@ -2,10 +2,8 @@
 
 import pandas as pd
 
-from softgrip.figures.chapter_2_grasp import DATA
-from softgrip.figures.exhibit import table
-from softgrip.provenance import Provenance
-from softgrip.rig.pad_grasp_study import (
+from book.chapter_2.figures_grasp import DATA
+from book.chapter_2.grasps import (
     FRICTION,
     OBJECTS,
     at_rest,
@@ -16,6 +14,8 @@ from softgrip.rig.pad_grasp_study import (
     study,
     summary,
 )
+from book.companion.exhibit import table
+from softgrip.provenance import Provenance
 from softgrip.tactile.force import TABLE_2_2, table_2_2
 from softgrip.tactile.friction import Interval, common_friction, printed_grasps
 from softgrip.tactile.lift import contact_force, holding_probability, lift_force

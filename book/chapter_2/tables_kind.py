@@ -2,15 +2,15 @@
 
 import pandas as pd
 
-from softgrip.figures.exhibit import table
-from softgrip.provenance import Provenance
-from softgrip.rig.kind_study import (
+from book.chapter_2.kinds import (
     OBJECTS,
     TRAINING,
     kept,
     right_on_objects,
     without_tested_objects,
 )
+from book.companion.exhibit import table
+from softgrip.provenance import Provenance
 from softgrip.tactile.accuracy_interval import Accuracy, counts_behind
 from softgrip.tactile.contact_kind import bagged_neighbours, nearest_neighbours
 from softgrip.tactile.kind_evaluation import accuracy

@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from softgrip.figures.chapter_2_pad import CALIBRATION, LOGS, contacts, errors
-from softgrip.figures.exhibit import table
+from book.chapter_2.figures_pad import CALIBRATION, LOGS, contacts, errors
+from book.companion.exhibit import table
 from softgrip.provenance import Provenance
-from softgrip.rig.calibration_table import read
+from softgrip.simulator.calibration_table import read
 from softgrip.tactile.contacts import KINDS
 from softgrip.units import DEG, MM
 

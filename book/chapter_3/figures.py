@@ -5,6 +5,21 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from book.chapter_3.finger_drawing import draw_bent, draw_section
+from book.chapter_3.torque_and_bending import DESIGNS, blocked_torque, settled_angles
+from book.companion.exhibit import figure
+from book.companion.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    MEASURED,
+    ORANGE,
+    PRINTED,
+    PURPLE,
+    SKY,
+    VERMILION,
+    WIDTH,
+)
 from softgrip.actuator.bending import Finger, free_bending
 from softgrip.actuator.design import DesignProblem, objective
 from softgrip.actuator.frequency import natural_frequency
@@ -17,22 +32,7 @@ from softgrip.actuator.printed import (
     section,
 )
 from softgrip.actuator.section import Section, torque
-from softgrip.figures.exhibit import figure
-from softgrip.figures.finger_drawing import draw_bent, draw_section
-from softgrip.figures.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    MEASURED,
-    ORANGE,
-    PRINTED,
-    PURPLE,
-    SKY,
-    VERMILION,
-    WIDTH,
-)
 from softgrip.provenance import Provenance
-from softgrip.rig.static_tests import DESIGNS, blocked_torque, settled_angles
 from softgrip.units import DEG, MM, MPa
 
 TABLE_3_1, TABLE_3_2 = "actuator/table_3_1.csv", "actuator/table_3_2.csv"

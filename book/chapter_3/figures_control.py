@@ -7,15 +7,11 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from softgrip.control.limited_lqr import best_within_limit, limited_loop
-from softgrip.control.loop import SPEED_LIMIT
-from softgrip.control.lqr import FINGER, Weights, lqr_gain, step_response
-from softgrip.control.lqr_limit import certificate, closed_loop_poles
-from softgrip.control.minimum_time import minimum_settling_time
-from softgrip.control.step_metrics import settling_time
-from softgrip.dynamics.second_order import full_state_space
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import (
+from book.chapter_3.regulators import FILE as GAINS
+from book.chapter_3.regulators import designed_on
+from book.chapter_4.identified_model import identified_model
+from book.companion.exhibit import figure
+from book.companion.style import (
     BLUE,
     GREEN,
     GREY,
@@ -25,11 +21,15 @@ from softgrip.figures.style import (
     VERMILION,
     WIDTH,
 )
+from softgrip.control.limited_lqr import best_within_limit, limited_loop
+from softgrip.control.loop import SPEED_LIMIT
+from softgrip.control.lqr import FINGER, Weights, lqr_gain, step_response
+from softgrip.control.lqr_limit import certificate, closed_loop_poles
+from softgrip.control.minimum_time import minimum_settling_time
+from softgrip.control.step_metrics import settling_time
+from softgrip.dynamics.second_order import full_state_space
+from softgrip.logs.reader import kept_log, read_log
 from softgrip.provenance import Provenance
-from softgrip.rig.identified_model import identified_model
-from softgrip.rig.log_reader import kept_log, read_log
-from softgrip.rig.lqr_gains import FILE as GAINS
-from softgrip.rig.lqr_gains import designed_on
 from softgrip.units import DEG
 
 LOGS = ("lqr-printed", "lqr-fast")

@@ -5,13 +5,10 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from softgrip.actuator.bending import Finger, free_bending
-from softgrip.actuator.fem_results import BEAM, CHAMBERS, FemResult, read
-from softgrip.actuator.printed import ANGLE_POWER, table_3_1
-from softgrip.actuator.section import torque
-from softgrip.figures.chapter_3 import CALIBRATION, OPTIMUM, TABLE_3_1
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import (
+from book.chapter_3.figures import CALIBRATION, OPTIMUM, TABLE_3_1
+from book.chapter_3.torque_and_bending import blocked_torque, settled_angles
+from book.companion.exhibit import figure
+from book.companion.style import (
     BLUE,
     GREEN,
     GREY,
@@ -23,9 +20,12 @@ from softgrip.figures.style import (
     VERMILION,
     WIDTH,
 )
+from softgrip.actuator.bending import Finger, free_bending
+from softgrip.actuator.fem_results import BEAM, CHAMBERS, FemResult, read
+from softgrip.actuator.printed import ANGLE_POWER, table_3_1
+from softgrip.actuator.section import torque
 from softgrip.provenance import Provenance
-from softgrip.rig.calibration import design_1
-from softgrip.rig.static_tests import blocked_torque, settled_angles
+from softgrip.simulator.calibration import design_1
 from softgrip.units import DEG, MM, MPa
 
 FEM = tuple(f"fem/{name}.csv" for name in ("table_3_1", "groove_floor", "convergence"))

@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 from matplotlib.patches import Polygon, Rectangle
 
+from book.companion.style import GREY, SKY
 from softgrip.actuator.section import Section
-from softgrip.figures.style import GREY, SKY
-from softgrip.materials.arrays import Floats
+from softgrip.arrays import Floats
 from softgrip.units import MM
 
 RUBBER = "#F2D7C4"

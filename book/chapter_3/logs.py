@@ -2,8 +2,8 @@
 
 from functools import partial
 
-from softgrip.rig.closed_loop_logs import ClosedLoopRecipe, write_closed_loop
-from softgrip.rig.lqr_gains import FILE, regulator
+from book.chapter_3.regulators import FILE, regulator
+from softgrip.simulator.closed_loop_log import ClosedLoopRecipe, write_closed_loop
 
 LOGS = {
     f"lqr-{design}": partial(

@@ -6,6 +6,9 @@ from math import pi
 import numpy as np
 from scipy.optimize import brentq
 
+from book.chapter_3.stepped import identified_step, rig_with
+from book.chapter_4.identified_model import identified_model
+from book.companion.verdict import simulated
 from softgrip.actuator.bending import Finger, free_bending
 from softgrip.actuator.certificate import certified_design
 from softgrip.actuator.design import Bounds, DesignProblem, objective
@@ -17,12 +20,9 @@ from softgrip.control.lqr import step_response as lqr_response
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.identify import Identified
 from softgrip.dynamics.second_order import SecondOrder, step_response
-from softgrip.ledger.verdict import simulated
+from softgrip.logs.steps import step_log_figures
 from softgrip.materials.table import material
 from softgrip.provenance import data_file
-from softgrip.rig.identified_model import identified_model
-from softgrip.rig.section_rig import identified_step, rig_with
-from softgrip.rig.step_log import step_log_figures
 from softgrip.units import DEG, MM, MPa
 
 TORQUE_SCALE, ANGLE_SCALE = 0.4, 1.4 * pi

@@ -1,4 +1,4 @@
-"""The regulators that Figure 3.12 runs on a rig; ``python -m softgrip.rig.lqr_gains``.
+"""The regulators that Figure 3.12 runs on a rig; ``python -m book.chapter_3.regulators``.
 
 The command identifies the rig from its logs, designs both and writes
 ``data/control/lqr_gains.csv``; the logs are made with what stands there.
@@ -16,6 +16,7 @@ import csv
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 
+from book.chapter_4.identified_model import IdentifiedModel, identified_model
 from softgrip.control.differentiator import RobustDifferentiator
 from softgrip.control.loop import SPEED_LIMIT, Controller
 from softgrip.control.lqr import FINGER, Weights, input_gain, lqr_gain
@@ -24,10 +25,9 @@ from softgrip.control.state_feedback import StateFeedback
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import UnknownNameError
 from softgrip.provenance import data_file, data_folder
-from softgrip.rig.identified_model import IdentifiedModel, identified_model
 
 FILE = "control/lqr_gains.csv"
-COMMAND = "python -m softgrip.rig.lqr_gains"
+COMMAND = "python -m book.chapter_3.regulators"
 
 FAST = Weights(p=1000.0, q=(1.0, 0.03, 0.0))
 """Of `fast`. From p = 3000 on some runs of the simulated rig do not come to rest."""

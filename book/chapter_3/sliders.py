@@ -6,14 +6,14 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
+from book.chapter_3.finger_drawing import draw_section
+from book.companion.style import BLUE, ORANGE, WIDTH, style
 from softgrip.actuator.bending import Finger, free_bending
 from softgrip.actuator.design import DesignProblem, FrequencyBand, InfeasibleDesignError
 from softgrip.actuator.frequency import natural_frequency
 from softgrip.actuator.optimize import optimal_design
 from softgrip.actuator.printed import ANGLE_POWER, FREQUENCY_MASS, FREQUENCY_POWER
 from softgrip.actuator.section import Section, torque
-from softgrip.figures.finger_drawing import draw_section
-from softgrip.figures.style import BLUE, ORANGE, WIDTH, style
 from softgrip.units import DEG, MM, MPa
 
 

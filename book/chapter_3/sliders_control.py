@@ -4,13 +4,13 @@ from functools import lru_cache
 
 from matplotlib.figure import Figure
 
+from book.chapter_3.regulators import designed_on
+from book.chapter_4.identified_model import IdentifiedModel, identified_model
+from book.companion.style import GREY, LINEAR, PRINTED, still, style
 from softgrip.control.limited_lqr import limited_loop
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import Weights, lqr_gain
 from softgrip.control.step_metrics import settling_time
-from softgrip.figures.style import GREY, LINEAR, PRINTED, still, style
-from softgrip.rig.identified_model import IdentifiedModel, identified_model
-from softgrip.rig.lqr_gains import designed_on
 from softgrip.units import DEG
 
 DURATION = 4.0

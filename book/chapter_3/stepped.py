@@ -8,10 +8,10 @@ from softgrip.actuator.printed import section as printed_section
 from softgrip.actuator.section import Section, chamber_area, check_section, torque
 from softgrip.dynamics.identify import Identified, identify
 from softgrip.errors import InvalidInputError
-from softgrip.rig.calibration import OPERATING_ANGLE, design_1
-from softgrip.rig.chance import SEED
-from softgrip.rig.parameters import RigParameters
-from softgrip.rig.step_tests import simulate_step_test, travel_to
+from softgrip.simulator.calibration import OPERATING_ANGLE, design_1
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.parameters import RigParameters
+from softgrip.simulator.steps import simulate_step_test, travel_to
 
 RUNS = 7
 

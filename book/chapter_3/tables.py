@@ -2,6 +2,10 @@
 
 import pandas as pd
 
+from book.chapter_3.figures import TABLE_3_1, TABLE_3_2
+from book.chapter_3.numbers import estimated_frequency, rubber_weight, stepped
+from book.companion.exhibit import table
+from book.companion.verdict import Entry, ledger
 from softgrip.actuator import fem_results
 from softgrip.actuator.certificate import certified_design
 from softgrip.actuator.design import Bounds, DesignProblem, objective
@@ -16,10 +20,6 @@ from softgrip.actuator.printed import (
 )
 from softgrip.actuator.printed import table_3_4 as printed_table_3_4
 from softgrip.actuator.section import Section
-from softgrip.figures.chapter_3 import TABLE_3_1, TABLE_3_2
-from softgrip.figures.exhibit import table
-from softgrip.ledger import Entry, ledger
-from softgrip.ledger.chapter_3 import estimated_frequency, rubber_weight, stepped
 from softgrip.provenance import Provenance
 from softgrip.units import MM
 

@@ -6,6 +6,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from book.chapter_3.figures_control import BANDS, FASTER, LOGS, PRINTED_TIME
+from book.chapter_3.regulators import FILE as GAINS
+from book.chapter_3.regulators import designed_on, regulator
+from book.chapter_4.identified_model import identified_model
+from book.companion.exhibit import table
 from softgrip.control.largest_step import largest_step
 from softgrip.control.limited_lqr import limited_loop
 from softgrip.control.loop import SPEED_LIMIT
@@ -13,19 +18,14 @@ from softgrip.control.lqr import FINGER, Weights, linear_settling_time, lqr_gain
 from softgrip.control.lqr_limit import settling_at_the_bound, settling_floor
 from softgrip.control.minimum_time import minimum_settling_time
 from softgrip.dynamics.second_order import full_state_space
-from softgrip.figures.chapter_3_control import BANDS, FASTER, LOGS, PRINTED_TIME
-from softgrip.figures.exhibit import table
+from softgrip.logs.reader import kept_log, read_log
+from softgrip.logs.steps import StepFigures, step_figures, step_log_figures
 from softgrip.provenance import Provenance
-from softgrip.rig.calibration import design_1
-from softgrip.rig.chance import SEED
-from softgrip.rig.closed_loop import run_on_rig
-from softgrip.rig.closed_loop_logs import STEP, STEP_DURATION
-from softgrip.rig.identified_model import identified_model
-from softgrip.rig.log_reader import kept_log, read_log
-from softgrip.rig.lqr_gains import FILE as GAINS
-from softgrip.rig.lqr_gains import designed_on, regulator
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.step_log import StepFigures, step_figures, step_log_figures
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.closed_loop import run_on_rig
+from softgrip.simulator.closed_loop_log import STEP, STEP_DURATION
+from softgrip.simulator.finger import SimulatedRig
 from softgrip.units import DEG
 
 RUNS = 100

@@ -11,11 +11,11 @@ from math import inf
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
-from softgrip.rig.calibration import design_1, design_2, design_3
-from softgrip.rig.chance import SEED, Chance
-from softgrip.rig.parameters import FingerParameters, RigParameters
+from softgrip.simulator.calibration import design_1, design_2, design_3
+from softgrip.simulator.chance import SEED, Chance
+from softgrip.simulator.parameters import FingerParameters, RigParameters
 from softgrip.units import GRAM_FORCE, MM
 
 LENGTH = 94 * MM
@@ -91,7 +91,7 @@ def settled_angles(
 
     Examples
     --------
-    >>> from softgrip.rig.calibration import design_1
+    >>> from softgrip.simulator.calibration import design_1
     >>> from softgrip.units import DEG
     >>> alike = settled_angles(design_1(spread=False), [0.15e6], runs=1)
     >>> round(float(alike[0, 0]) / DEG, 3)

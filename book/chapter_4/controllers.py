@@ -2,12 +2,12 @@
 
 from typing import Literal, get_args
 
+from book.chapter_4.identified_model import identified_model
+from book.chapter_4.pid_gains import pid_gains
 from softgrip.control.loop import SPEED_LIMIT, Controller
 from softgrip.control.pid import PID
 from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed, PressureByPlunger
 from softgrip.errors import InvalidInputError
-from softgrip.rig.identified_model import identified_model
-from softgrip.rig.pid_gains import pid_gains
 
 Name = Literal["actuator", "actuator by plunger", "full"]
 """The (4.14) design under its two readings of `control.pressure_command`, and the (4.15) one."""
@@ -21,7 +21,7 @@ def controller(name: Name, stage: str = "tuned") -> Controller:
     name
         Which.
     stage
-        Of the tuning; see `rig.pid_gains`.
+        Of the tuning; see `numbers.pid_gains`.
 
     Raises
     ------

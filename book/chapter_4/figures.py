@@ -6,8 +6,12 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import LINEAR, LUDWICK, MEASURED, OTHER, VERMILION, WIDTH
+from book.companion.exhibit import figure
+from book.companion.style import LINEAR, LUDWICK, MEASURED, OTHER, VERMILION, WIDTH
+from softgrip.logs.gaps import intervals
+from softgrip.logs.pump import pump_of
+from softgrip.logs.pushes import compare, prior, reference_noise
+from softgrip.logs.reader import kept_log, read_log
 from softgrip.provenance import Provenance, data_folder
 from softgrip.pump.capacity import estimate
 from softgrip.pump.elastance import ElastanceModel
@@ -15,10 +19,6 @@ from softgrip.pump.flow import PARAMETER_SETS
 from softgrip.pump.gas import ATMOSPHERE, capacity
 from softgrip.pump.pressure import pressure
 from softgrip.pump.printed_filter import printed_filter, run_printed
-from softgrip.rig.log_gaps import intervals
-from softgrip.rig.log_pump import pump_of
-from softgrip.rig.log_reader import kept_log, read_log
-from softgrip.rig.pressure_models import compare, prior, reference_noise
 from softgrip.units import ML, MPa
 
 GAS_VOLUME = 90 * ML

@@ -6,18 +6,18 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from book.chapter_4.identified_model import IdentifiedModel, identified_model
+from book.chapter_4.pid_gains import pid_gains
+from book.companion.exhibit import figure
+from book.companion.style import GREY, LUDWICK, MEASURED, PRINTED, VERMILION, WIDTH
 from softgrip.control.designs import linear_loop
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.minimum_time import farthest
 from softgrip.control.pid import Gains
 from softgrip.control.pressure_command import SET_PRESSURE
 from softgrip.dynamics.second_order import full_state_space, state_space
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import GREY, LUDWICK, MEASURED, PRINTED, VERMILION, WIDTH
+from softgrip.logs.reader import kept_log, read_log
 from softgrip.provenance import Provenance
-from softgrip.rig.identified_model import IdentifiedModel, identified_model
-from softgrip.rig.log_reader import kept_log, read_log
-from softgrip.rig.pid_gains import pid_gains
 from softgrip.units import DEG
 
 STEPS = ("pid-actuator", "pid-full")

@@ -12,12 +12,12 @@ import numpy as np
 from softgrip.dynamics.identify import Identified, identify
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import DataFileError
+from softgrip.logs.pump import pump_of
+from softgrip.logs.reader import read_log
+from softgrip.logs.repeated_steps import read_alike
+from softgrip.logs.swept_volume import check_start, swept_volume
 from softgrip.provenance import data_file
 from softgrip.pump.flow import flow
-from softgrip.rig.log_pump import pump_of
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.push_log import check_start, swept_volume
-from softgrip.rig.repeated_steps import read_alike
 
 STEP_LOGS = tuple(f"simulated/step-60-{run}.csv" for run in range(1, 8))
 PUSH_LOG = "simulated/push-a.csv"

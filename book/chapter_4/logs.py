@@ -5,13 +5,13 @@ from functools import partial
 
 import numpy as np
 
+from book.chapter_4.controllers import controller
+from book.chapter_4.pid_gains import FILE
 from softgrip.control.pid import PERIOD
-from softgrip.rig.closed_loop_logs import ClosedLoopRecipe, write_closed_loop
-from softgrip.rig.open_loop_logs import OpenLoopRecipe, write_open_loop
-from softgrip.rig.parameters import PumpParameters
-from softgrip.rig.pid_controllers import controller
-from softgrip.rig.pid_gains import FILE
-from softgrip.rig.staircase import staircase
+from softgrip.control.staircase import staircase
+from softgrip.simulator.closed_loop_log import ClosedLoopRecipe, write_closed_loop
+from softgrip.simulator.open_loop_log import OpenLoopRecipe, write_open_loop
+from softgrip.simulator.parameters import PumpParameters
 from softgrip.units import ML, MM, REV, MPa
 
 LARGEST = 0.15 * MPa

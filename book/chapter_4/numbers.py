@@ -4,19 +4,19 @@ from itertools import product
 
 import numpy as np
 
+from book.chapter_4.identified_model import identified_model
+from book.chapter_4.pid_gains import pid_gains
+from book.companion.verdict import simulated
 from softgrip.control.designs import STEP, linear_loop
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.pressure_command import SET_PRESSURE
 from softgrip.dynamics.second_order import full_state_space, state_space
-from softgrip.ledger.verdict import simulated
+from softgrip.logs.pushes import compare
+from softgrip.logs.staircase import staircase_figures
+from softgrip.logs.steps import StepFigures, step_figures, step_log_figures
 from softgrip.provenance import data_folder
 from softgrip.pump.flow import TABLE_4_1, Pump, PumpRun, parameter_set
 from softgrip.pump.gas import ATMOSPHERE, capacity_growth
-from softgrip.rig.identified_model import identified_model
-from softgrip.rig.pid_gains import pid_gains
-from softgrip.rig.pressure_models import compare
-from softgrip.rig.staircase_log import staircase_figures
-from softgrip.rig.step_log import StepFigures, step_figures, step_log_figures
 from softgrip.units import DEG, ML, REV
 
 SETTLING = {"simulated": (5.0, 2.5), "measured": (3.95, 2.38)}

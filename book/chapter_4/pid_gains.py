@@ -1,4 +1,4 @@
-"""The gains of the two PID controllers of Chapter 4; ``python -m softgrip.rig.pid_gains``.
+"""The gains of the two PID controllers of Chapter 4; ``python -m book.chapter_4.pid_gains``.
 
 The command identifies the rig from its logs, designs both controllers on what it found and writes
 ``data/control/pid_gains.csv``. The logs of the controllers are made with what stands there.
@@ -8,14 +8,14 @@ import csv
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 
+from book.chapter_4.identified_model import IdentifiedModel, identified_model
 from softgrip.control.designs import Design, actuator_design, full_design
 from softgrip.control.pid import Gains
 from softgrip.errors import UnknownNameError
 from softgrip.provenance import data_file, data_folder
-from softgrip.rig.identified_model import IdentifiedModel, identified_model
 
 FILE = "control/pid_gains.csv"
-COMMAND = "python -m softgrip.rig.pid_gains"
+COMMAND = "python -m book.chapter_4.pid_gains"
 MODELS = {"actuator": "Eq. (4.14)", "full": "Eq. (4.15)"}
 STAGES = ("ziegler-nichols", "tuned")
 

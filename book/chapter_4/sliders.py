@@ -4,20 +4,20 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
+from book.chapter_4.figures_control import loop
+from book.chapter_4.identified_model import identified_model
+from book.chapter_4.pid_gains import pid_gains
+from book.companion.style import GREY, LINEAR, LUDWICK, MEASURED, PRINTED, VERMILION, still, style
 from softgrip.control.designs import STEP
 from softgrip.control.pid import Gains
 from softgrip.control.step_metrics import settling_time
-from softgrip.figures.chapter_4_control import loop
-from softgrip.figures.style import GREY, LINEAR, LUDWICK, MEASURED, PRINTED, VERMILION, still, style
+from softgrip.logs.pushes import compare
+from softgrip.logs.reader import kept_log
 from softgrip.pump.finger import Finger
 from softgrip.pump.flow import TABLE_4_1, Pump, flow
 from softgrip.pump.gas import ATMOSPHERE, capacity, closed_volume_pressure
 from softgrip.pump.pressure import pressure
 from softgrip.pump.sizing import sizings
-from softgrip.rig.identified_model import identified_model
-from softgrip.rig.log_reader import kept_log
-from softgrip.rig.pid_gains import pid_gains
-from softgrip.rig.pressure_models import compare
 from softgrip.units import DEG, ML, MM, REV, MPa
 
 VOLUMES = {"60 mL": 60 * ML, "200 mL": 200 * ML}

@@ -6,18 +6,18 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from book.chapter_4.figures_control import GAINS, loop
+from book.chapter_4.identified_model import identified_model
+from book.chapter_4.pid_gains import pid_gains
+from book.companion.exhibit import table
 from softgrip.control.designs import STEP
-from softgrip.figures.chapter_4_control import GAINS, loop
-from softgrip.figures.exhibit import table
+from softgrip.logs.reader import kept_log, read_log
+from softgrip.logs.steps import step_figures, step_log_figures
 from softgrip.provenance import Provenance
 from softgrip.pump.finger import Finger
 from softgrip.pump.flow import TABLE_4_1, Pump, flow
 from softgrip.pump.sizing import Sizing, sizings
-from softgrip.rig.calibration_table import read
-from softgrip.rig.identified_model import identified_model
-from softgrip.rig.log_reader import kept_log, read_log
-from softgrip.rig.pid_gains import pid_gains
-from softgrip.rig.step_log import step_figures, step_log_figures
+from softgrip.simulator.calibration_table import read
 from softgrip.units import DEG, ML, MM, REV, MPa
 
 CALIBRATION = "calibration/simulated_rig.csv"

@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 from scipy.stats import spearmanr
 
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import (
+from book.companion.exhibit import figure
+from book.companion.style import (
     GREY,
     LUDWICK,
     MEASURED,
@@ -18,8 +18,8 @@ from softgrip.figures.style import (
     VERMILION,
     WIDTH,
 )
+from softgrip.arrays import Floats
 from softgrip.materials import ludwick, tensile, yeoh
-from softgrip.materials.arrays import Floats
 from softgrip.materials.facts import facts
 from softgrip.materials.fitting import (
     LONGEST_STRAINS,

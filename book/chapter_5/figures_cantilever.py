@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.figure import Figure
 
+from book.companion.exhibit import figure
+from book.companion.style import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILION, WIDTH
 from softgrip.actuator.cantilever import angle_limit, closed_form_error
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILION, WIDTH
 from softgrip.provenance import Provenance
 from softgrip.units import DEG
 

@@ -5,12 +5,12 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
+from book.chapter_5 import step_sweep
+from book.chapter_5.step_models import ANGLES, FINGERS, KINDS, compare, rms_error
+from book.companion.exhibit import figure
+from book.companion.style import GREY, LINEAR, LUDWICK, MEASURED, OTHER, VERMILION, WIDTH
 from softgrip.errors import InvalidInputError
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import GREY, LINEAR, LUDWICK, MEASURED, OTHER, VERMILION, WIDTH
 from softgrip.provenance import Provenance, data_folder
-from softgrip.rig import step_sweep
-from softgrip.rig.step_test_models import ANGLES, FINGERS, KINDS, compare, rms_error
 from softgrip.units import DEG
 
 COLOURS = {"linear": (LINEAR, "-."), "ludwick": (LUDWICK, "--")}

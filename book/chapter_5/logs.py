@@ -2,17 +2,17 @@
 
 from functools import partial
 
-from softgrip.rig.calibration import design_1, design_3
-from softgrip.rig.open_loop_logs import OpenLoopRecipe, write_open_loop
-from softgrip.rig.parameters import PumpParameters
-from softgrip.rig.step_tests import step_commands
+from softgrip.simulator.calibration import design_1, design_3
+from softgrip.simulator.open_loop_log import OpenLoopRecipe, write_open_loop
+from softgrip.simulator.parameters import PumpParameters
+from softgrip.simulator.steps import step_commands
 from softgrip.units import MM
 
 RUNS = 7
 STEP_PLUNGER = {60: 11.1 * MM, 90: 25.3 * MM}
 STEP_PLUNGER_FX = {60: 24.1 * MM, 90: 39.2 * MM}
 """Travel of the plunger that settles the median finger at about these angles, deg: of Dragon Skin
-20, and of FX-Pro. They are `step_tests.travel_to`, to a tenth of a millimetre."""
+20, and of FX-Pro. They are `steps.travel_to`, to a tenth of a millimetre."""
 
 STEPS = {
     f"{name}-{degrees}-{run + 1}": OpenLoopRecipe(

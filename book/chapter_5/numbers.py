@@ -4,15 +4,15 @@ from math import inf, pi
 
 import numpy as np
 
+from book.chapter_5 import step_sweep
+from book.chapter_5.step_models import FINGERS, Kind, identified_at, step_test_error
+from book.companion.verdict import simulated
 from softgrip.dynamics.consistency import agreement
-from softgrip.ledger.verdict import simulated
 from softgrip.materials.facts import facts
 from softgrip.materials.fitting import Fitting, fractional_power
 from softgrip.materials.powerlaw import FractionalPowerRegressor
 from softgrip.materials.table import HELD_OUT, material, properties, table_5_1
 from softgrip.materials.table import fractional_powers as printed_powers
-from softgrip.rig import step_sweep
-from softgrip.rig.step_test_models import FINGERS, Kind, identified_at, step_test_error
 from softgrip.units import DEG, MPa
 
 TABLE_5_2 = {"Dragon Skin 20": (2.174, 2.365), "Dragon Skin FX Pro": (1.538, 1.727)}

@@ -2,8 +2,8 @@
 
 from matplotlib.figure import Figure
 
-from softgrip.figures.chapter_5 import draw_curves
-from softgrip.figures.style import (
+from book.chapter_5.figures import draw_curves
+from book.companion.style import (
     LUDWICK,
     MEASURED,
     still,

@@ -3,7 +3,7 @@
 The text does not say how its models got their numbers, nor what drove them. The way used for
 Figures 5.6 and 5.7 is "identified at 60 deg": mass, damping and stiffness of either model are
 fitted to the 60 deg test alone, Ludwick's with the estimated power of Table 5.2, and both then
-answer the measured pressure of either test. `step_test_protocols` tries others.
+answer the measured pressure of either test. `step_protocols` tries others.
 """
 
 from collections.abc import Sequence
@@ -14,13 +14,13 @@ from typing import Literal
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.dynamics.fitted_finger import FittedFinger
 from softgrip.dynamics.ludwick_fit import fit_finger
 from softgrip.errors import UnknownNameError
-from softgrip.materials.arrays import Floats
+from softgrip.logs.repeated_steps import StepTest, read_step_test
 from softgrip.provenance import data_file
-from softgrip.rig.calibration import TORQUE_PER_PRESSURE
-from softgrip.rig.repeated_steps import StepTest, read_step_test
+from softgrip.simulator.calibration import TORQUE_PER_PRESSURE
 from softgrip.units import DEG, MM
 
 Kind = Literal["linear", "ludwick"]

@@ -1,6 +1,6 @@
 """The eight RMS errors of Section 5.4 under each way to make the models that the text leaves open.
 
-``python -m softgrip.rig.step_test_protocols`` writes ``data/dynamics/step_test_errors.csv``.
+``python -m book.chapter_5.step_protocols`` writes ``data/dynamics/step_test_errors.csv``.
 """
 
 import csv
@@ -9,15 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from softgrip.dynamics import linear, ludwick
-from softgrip.dynamics.ludwick_fit import fit_finger
-from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
-from softgrip.materials.table import material
-from softgrip.provenance import data_file, data_folder
-from softgrip.rig.chance import SEED
-from softgrip.rig.step_sweep import RIGS
-from softgrip.rig.step_test_models import (
+from book.chapter_5.step_models import (
     ANGLES,
     FINGERS,
     FORCE_PER_PRESSURE,
@@ -28,11 +20,19 @@ from softgrip.rig.step_test_models import (
     kept_test,
     rms_error,
 )
-from softgrip.rig.step_tests import simulate_step_test, travel_to
+from book.chapter_5.step_sweep import RIGS
+from softgrip.arrays import Floats
+from softgrip.dynamics import linear, ludwick
+from softgrip.dynamics.ludwick_fit import fit_finger
+from softgrip.errors import InvalidInputError
+from softgrip.materials.table import material
+from softgrip.provenance import data_file, data_folder
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.steps import simulate_step_test, travel_to
 from softgrip.units import DEG, MM
 
 FILE = "dynamics/step_test_errors.csv"
-COMMAND = "python -m softgrip.rig.step_test_protocols"
+COMMAND = "python -m book.chapter_5.step_protocols"
 SIZE = {"width": 30 * MM, "height": 24 * MM, "length": 94 * MM}
 """Of both fingers (Section 3.4)."""
 SMALL = 30

@@ -1,6 +1,6 @@
 """Where the linear model stops being good enough: errors over the size of the step.
 
-``python -m softgrip.rig.step_sweep`` writes ``data/dynamics/step_sweep.csv``: for steps of 10 to
+``python -m book.chapter_5.step_sweep`` writes ``data/dynamics/step_sweep.csv``: for steps of 10 to
 140 deg of the simulated rig, without its sensors, the RMS error of several models against the mean
 of seven runs. The rig's own spring is one of Ludwick's law: that this law fares well here is no
 finding. What the linear model loses is.
@@ -14,15 +14,7 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import minimize
 
-from softgrip.dynamics.linear import second_order
-from softgrip.dynamics.sampled_response import response
-from softgrip.dynamics.second_order import SecondOrder
-from softgrip.materials.arrays import Floats
-from softgrip.provenance import data_file, data_folder
-from softgrip.rig.calibration import design_1, design_3
-from softgrip.rig.chance import SEED
-from softgrip.rig.repeated_steps import StepTest
-from softgrip.rig.step_test_models import (
+from book.chapter_5.step_models import (
     FINGERS,
     FORCE_PER_PRESSURE,
     KINDS,
@@ -30,11 +22,19 @@ from softgrip.rig.step_test_models import (
     identified_at,
     rms_error,
 )
-from softgrip.rig.step_tests import simulate_step_test, travel_to
+from softgrip.arrays import Floats
+from softgrip.dynamics.linear import second_order
+from softgrip.dynamics.sampled_response import response
+from softgrip.dynamics.second_order import SecondOrder
+from softgrip.logs.repeated_steps import StepTest
+from softgrip.provenance import data_file, data_folder
+from softgrip.simulator.calibration import design_1, design_3
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.steps import simulate_step_test, travel_to
 from softgrip.units import DEG
 
 FILE = "dynamics/step_sweep.csv"
-COMMAND = "python -m softgrip.rig.step_sweep"
+COMMAND = "python -m book.chapter_5.step_sweep"
 ANGLES = tuple(range(10, 141, 10))
 RIGS = {"Design 1": design_1, "Design 2": design_3}
 

@@ -5,9 +5,9 @@ from math import inf
 import numpy as np
 import pandas as pd
 
-from softgrip.figures.chapter_5 import FACTS, FITS, TABLE, TESTS
-from softgrip.figures.exhibit import table
-from softgrip.ledger import Entry, ledger
+from book.chapter_5.figures import FACTS, FITS, TABLE, TESTS
+from book.companion.exhibit import table
+from book.companion.verdict import Entry, ledger
 from softgrip.materials import tensile
 from softgrip.materials.facts import facts
 from softgrip.materials.fitting import (

@@ -3,20 +3,20 @@
 import numpy as np
 import pandas as pd
 
+from book.chapter_5 import step_protocols as step_test_protocols
+from book.chapter_5.figures_dynamics import WORDS, logs_of
+from book.chapter_5.numbers import PRINTED_RMS
+from book.chapter_5.step_models import FINGERS, KINDS, identified_at
+from book.chapter_5.step_protocols import SIZE
+from book.companion.exhibit import table
 from softgrip.dynamics import linear, ludwick
 from softgrip.dynamics.consistency import agreements
 from softgrip.dynamics.identify import Estimate
-from softgrip.figures.chapter_5_dynamics import WORDS, logs_of
-from softgrip.figures.exhibit import table
-from softgrip.ledger.chapter_5 import PRINTED_RMS
 from softgrip.materials.table import material
 from softgrip.provenance import Provenance
-from softgrip.rig import step_test_protocols
-from softgrip.rig.step_test_models import FINGERS, KINDS, identified_at
-from softgrip.rig.step_test_protocols import SIZE
 
 SHORT = ("at 60", "n of 5.2", "n of 5.1", "each", "at 30", "step", "stated K")
-"""Names of `step_test_protocols.PROTOCOLS` that fit above a column."""
+"""Names of `step_protocols.PROTOCOLS` that fit above a column."""
 
 
 @table(

@@ -6,24 +6,24 @@ from functools import cache
 
 import numpy as np
 
-from softgrip.control.loop import SPEED_LIMIT
-from softgrip.control.step_metrics import final_value, settling_time
-from softgrip.gripper.robustness import tolerated_uncertainty
-from softgrip.gripper.synchronization import synchronization_error
-from softgrip.materials.arrays import Floats
-from softgrip.rig.chance import SEED
-from softgrip.rig.gripper_calibration import OPEN_LOOP_DURATION
-from softgrip.rig.gripper_control import (
+from book.chapter_6.controllers import (
     feedback_of,
     gripper_controller,
     own_model,
     printed_model,
     target_angles,
 )
-from softgrip.rig.gripper_loop import DrivenGripper, GripperController, drive_gripper
-from softgrip.rig.gripper_parameters import printed_gripper
-from softgrip.rig.gripper_rig import GripperRig
-from softgrip.rig.parameters import GripperParameters
+from softgrip.arrays import Floats
+from softgrip.control.loop import SPEED_LIMIT
+from softgrip.control.step_metrics import final_value, settling_time
+from softgrip.gripper.robustness import tolerated_uncertainty
+from softgrip.gripper.synchronization import synchronization_error
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.gripper import GripperRig
+from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION
+from softgrip.simulator.gripper_loop import DrivenGripper, GripperController, drive_gripper
+from softgrip.simulator.gripper_parameters import printed_gripper
+from softgrip.simulator.parameters import GripperParameters
 from softgrip.units import DEG
 
 RUNS = 50

@@ -7,6 +7,7 @@ from typing import Literal
 import control
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import Weights, lqr_gain
 from softgrip.control.observer_feedback import ObserverFeedback
@@ -17,12 +18,11 @@ from softgrip.gripper.optimal_feedforward import OptimalFeedforward, trade_off
 from softgrip.gripper.plant import Gripper
 from softgrip.gripper.reach import project
 from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
-from softgrip.materials.arrays import Floats
+from softgrip.logs.fingers import identified_gripper, read_runs
 from softgrip.provenance import data_file
-from softgrip.rig.gripper_calibration import push_commands
-from softgrip.rig.gripper_loop import CommandSequence, GripperController, OnTheMean
-from softgrip.rig.gripper_parameters import LEFT, RIGHT, TRAVEL, printed_gripper
-from softgrip.rig.gripper_tests import identified_gripper, read_runs
+from softgrip.simulator.gripper_calibration import push_commands
+from softgrip.simulator.gripper_loop import CommandSequence, GripperController, OnTheMean
+from softgrip.simulator.gripper_parameters import LEFT, RIGHT, TRAVEL, printed_gripper
 from softgrip.units import DEG
 
 WANTED = 45 * DEG

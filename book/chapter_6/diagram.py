@@ -2,9 +2,9 @@
 
 from matplotlib.figure import Figure
 
-from softgrip.figures.block_diagram import arrow, block, finish, sum_point, words
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import BLUE, GREY, VERMILION, WIDTH
+from book.companion.block_diagram import arrow, block, finish, sum_point, words
+from book.companion.exhibit import figure
+from book.companion.style import BLUE, GREY, VERMILION, WIDTH
 from softgrip.provenance import Provenance
 
 

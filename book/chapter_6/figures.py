@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import (
+from book.companion.exhibit import figure
+from book.companion.style import (
     BLUE,
     GREEN,
     GREY,

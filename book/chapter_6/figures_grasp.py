@@ -6,11 +6,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from softgrip.figures.chapter_6_rig import SIDES
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import BLUE, GREEN, GREY, ORANGE, VERMILION, WIDTH
+from book.chapter_6.figures_rig import SIDES
+from book.chapter_6.grasps import DRIVES, STIFFNESS, Grasp, grasp
+from book.companion.exhibit import figure
+from book.companion.style import BLUE, GREEN, GREY, ORANGE, VERMILION, WIDTH
 from softgrip.provenance import Provenance
-from softgrip.rig.gripper_grasp import DRIVES, STIFFNESS, Grasp, grasp
 from softgrip.units import MM
 
 

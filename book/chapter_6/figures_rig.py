@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from softgrip.control.step_metrics import final_value
-from softgrip.errors import InvalidInputError
-from softgrip.figures.exhibit import figure
-from softgrip.figures.style import (
+from book.chapter_6 import speed as gripper_speed
+from book.chapter_6.logs import names_of
+from book.chapter_6.results import BAND_SHARE
+from book.companion.exhibit import figure
+from book.companion.style import (
     BLUE,
     GREEN,
     GREY,
@@ -21,14 +22,13 @@ from softgrip.figures.style import (
     WIDTH,
     YELLOW,
 )
+from softgrip.arrays import Floats
+from softgrip.control.step_metrics import final_value
+from softgrip.errors import InvalidInputError
 from softgrip.gripper.plant import FingerDynamics
 from softgrip.gripper.uncertainty import bounding_weight, deviation, excited_band, finger_response
-from softgrip.materials.arrays import Floats
+from softgrip.logs.fingers import GripperLogs, each_identified, read_runs, run_deviation
 from softgrip.provenance import Provenance, data_folder
-from softgrip.rig import gripper_speed
-from softgrip.rig.gripper_logs import names_of
-from softgrip.rig.gripper_results import BAND_SHARE
-from softgrip.rig.gripper_tests import GripperLogs, each_identified, read_runs, run_deviation
 from softgrip.units import DEG
 
 SIDES = (("left", BLUE, "-"), ("right", GREEN, "--"))

@@ -6,8 +6,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from softgrip.figures.exhibit import figure, table
-from softgrip.figures.style import (
+from book.chapter_6 import finger_count
+from book.companion.exhibit import figure, table
+from book.companion.style import (
     BLACK,
     BLUE,
     GREEN,
@@ -19,7 +20,6 @@ from softgrip.figures.style import (
     VERMILION,
     WIDTH,
 )
-from softgrip.gripper import finger_count
 from softgrip.gripper.batch_loop import unaware
 from softgrip.gripper.gripper_batch import GripperBatch, can_rest, draw_grippers
 from softgrip.gripper.internal_model import ControllerMatrices, controller_matrices

@@ -1,6 +1,6 @@
 """More fingers on one pump: what is out of reach, and how far apart they get on the way.
 
-``python -m softgrip.gripper.finger_count`` writes ``data/gripper/finger_count.csv``.
+``python -m book.chapter_6.finger_count`` writes ``data/gripper/finger_count.csv``.
 """
 
 import csv
@@ -17,7 +17,7 @@ from softgrip.provenance import data_file, data_folder
 from softgrip.units import DEG
 
 FILE = "gripper/finger_count.csv"
-COMMAND = "python -m softgrip.gripper.finger_count"
+COMMAND = "python -m book.chapter_6.finger_count"
 COUNTS = (2, 3, 4, 5)
 SPREADS = (0.0, 0.025, 0.05, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2)
 TARGET = 45 * DEG

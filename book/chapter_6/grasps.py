@@ -6,15 +6,15 @@ from functools import cache
 
 import numpy as np
 
+from book.chapter_6.controllers import gripper_controller
+from softgrip.arrays import Floats
 from softgrip.gripper.grasp import DiscBetweenFingers, ElasticDisc
 from softgrip.gripper.internal_model import PERIOD
-from softgrip.materials.arrays import Floats
-from softgrip.rig.chance import SEED
-from softgrip.rig.gripper_calibration import push_commands
-from softgrip.rig.gripper_control import gripper_controller
-from softgrip.rig.gripper_loop import CommandSequence, GripperController, Held, drive_gripper
-from softgrip.rig.gripper_parameters import TRAVEL, printed_gripper
-from softgrip.rig.gripper_rig import GripperRig
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.gripper import GripperRig
+from softgrip.simulator.gripper_calibration import push_commands
+from softgrip.simulator.gripper_loop import CommandSequence, GripperController, Held, drive_gripper
+from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
 from softgrip.units import REV
 
 STEP = 0.0025

@@ -12,19 +12,19 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
+from book.chapter_6.controllers import gripper_controller, own_model, target_angles
+from softgrip.arrays import Floats
 from softgrip.gripper.internal_model import PERIOD
-from softgrip.materials.arrays import Floats
+from softgrip.logs.fingers import column
+from softgrip.logs.schema import LogHeader
+from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance
-from softgrip.rig.chance import SEED
-from softgrip.rig.gripper_calibration import OPEN_LOOP_DURATION, push_commands
-from softgrip.rig.gripper_calibration_table import FILE
-from softgrip.rig.gripper_control import gripper_controller, own_model, target_angles
-from softgrip.rig.gripper_loop import CommandSequence, GripperController, drive_gripper
-from softgrip.rig.gripper_parameters import TRAVEL, printed_gripper
-from softgrip.rig.gripper_rig import GripperRig
-from softgrip.rig.gripper_tests import column
-from softgrip.rig.log_schema import LogHeader
-from softgrip.rig.logs import LogWriter
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.gripper import GripperRig
+from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION, push_commands
+from softgrip.simulator.gripper_calibration_table import FILE
+from softgrip.simulator.gripper_loop import CommandSequence, GripperController, drive_gripper
+from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
 from softgrip.units import REV
 
 RUNS = 7

@@ -4,6 +4,9 @@ from functools import cache
 
 import numpy as np
 
+from book.chapter_6.controllers import gripper_controller, own_model, target_angles
+from book.chapter_6.logs import PUSH_FROM, PUSH_UNTIL, RUNS, names_of, push_left
+from softgrip.arrays import Floats
 from softgrip.control.step_metrics import final_value
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.gripper.plant import FingerDynamics
@@ -14,17 +17,14 @@ from softgrip.gripper.uncertainty import (
     finger_response,
     parameter_bounds,
 )
-from softgrip.materials.arrays import Floats
+from softgrip.logs.fingers import GripperLogs, each_identified, read_runs
 from softgrip.provenance import data_file
 from softgrip.pump.finger import Finger, swept_volume
-from softgrip.rig.chance import SEED
-from softgrip.rig.gripper_calibration import step_identifies
-from softgrip.rig.gripper_control import gripper_controller, own_model, target_angles
-from softgrip.rig.gripper_logs import PUSH_FROM, PUSH_UNTIL, RUNS, names_of, push_left
-from softgrip.rig.gripper_loop import drive_gripper
-from softgrip.rig.gripper_parameters import TRAVEL, printed_gripper
-from softgrip.rig.gripper_rig import GripperRig
-from softgrip.rig.gripper_tests import GripperLogs, each_identified, read_runs
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.gripper import GripperRig
+from softgrip.simulator.gripper_calibration import step_identifies
+from softgrip.simulator.gripper_loop import drive_gripper
+from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
 from softgrip.units import DEG
 
 BAND_SHARE = 0.1

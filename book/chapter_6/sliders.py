@@ -3,8 +3,8 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from softgrip.figures.chapter_6 import SPA
-from softgrip.figures.style import PRINTED, still, style
+from book.chapter_6.figures import SPA
+from book.companion.style import PRINTED, still, style
 from softgrip.gripper.gripper_loop import run_gripper
 from softgrip.gripper.internal_model import InternalModelController
 from softgrip.gripper.inversion import mean_inverse

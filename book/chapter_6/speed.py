@@ -1,6 +1,6 @@
 """Does speed narrow the spread of a finger, as Remark 3 and Figure 6.5 say? Steps at many speeds.
 
-``python -m softgrip.rig.gripper_speed`` writes ``data/gripper/speed_spread.csv``: for pushes of one
+``python -m book.chapter_6.speed`` writes ``data/gripper/speed_spread.csv``: for pushes of one
 travel at several motor speeds, where the left finger of the simulated gripper comes to rest in each
 run, less the mean over the runs. The mean of its last second, as it is and as its sensor has it.
 """
@@ -11,18 +11,18 @@ from pathlib import Path
 
 import numpy as np
 
+from book.chapter_6.logs import REST, low_speed_commands
+from softgrip.arrays import Floats
 from softgrip.gripper.internal_model import PERIOD
-from softgrip.materials.arrays import Floats
 from softgrip.provenance import data_file, data_folder
-from softgrip.rig.chance import SEED
-from softgrip.rig.gripper_logs import REST, low_speed_commands
-from softgrip.rig.gripper_loop import CommandSequence, drive_gripper
-from softgrip.rig.gripper_parameters import printed_gripper
-from softgrip.rig.gripper_rig import GripperRig
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.gripper import GripperRig
+from softgrip.simulator.gripper_loop import CommandSequence, drive_gripper
+from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.units import DEG, REV
 
 FILE = "gripper/speed_spread.csv"
-COMMAND = "python -m softgrip.rig.gripper_speed"
+COMMAND = "python -m book.chapter_6.speed"
 SPEEDS = (5.0, 1.0, 0.5, 0.2, 0.1, 0.05)
 """rev/s."""
 RUNS = 200

@@ -5,10 +5,10 @@ from collections.abc import Iterable
 import numpy as np
 import pandas as pd
 
+from book.chapter_6.figures import COMPARED
+from book.companion.exhibit import table
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.step_metrics import settling_time
-from softgrip.figures.chapter_6 import COMPARED
-from softgrip.figures.exhibit import table
 from softgrip.gripper.gripper_loop import run_gripper
 from softgrip.gripper.internal_model import InternalModelController, controller_matrices
 from softgrip.gripper.inversion import mean_inverse

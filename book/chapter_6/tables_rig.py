@@ -3,13 +3,10 @@
 import numpy as np
 import pandas as pd
 
-from softgrip.figures.exhibit import table
-from softgrip.materials.arrays import Floats
-from softgrip.provenance import Provenance
-from softgrip.rig import gripper_speed
-from softgrip.rig.gripper_comparison import CRITERIA, ENTRIES, RIGS, judged, robustness_margin
-from softgrip.rig.gripper_logs import names_of
-from softgrip.rig.gripper_results import (
+from book.chapter_6 import speed as gripper_speed
+from book.chapter_6.comparison import CRITERIA, ENTRIES, RIGS, judged, robustness_margin
+from book.chapter_6.logs import names_of
+from book.chapter_6.results import (
     bounds,
     desired,
     ends,
@@ -18,6 +15,9 @@ from softgrip.rig.gripper_results import (
     largest_weight,
     recovery,
 )
+from book.companion.exhibit import table
+from softgrip.arrays import Floats
+from softgrip.provenance import Provenance
 from softgrip.units import DEG, REV
 
 OPEN = names_of("open")

@@ -6,7 +6,7 @@ from typing import Any
 from matplotlib.patches import Circle, FancyArrowPatch, Rectangle
 from matplotlib.path import Path
 
-from softgrip.figures.style import GREY
+from book.companion.style import GREY
 
 LINE = 1.4
 SUM_RADIUS = 0.14

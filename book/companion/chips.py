@@ -5,9 +5,8 @@ from collections import Counter
 from dataclasses import dataclass
 from math import inf
 
-from softgrip.ledger import Entry, Verdict, ledger
-from softgrip.ledger.counts import counts_table
-from softgrip.ledger.verdict import comes_out
+from book.companion.counts import counts_table
+from book.companion.verdict import Entry, Verdict, comes_out, ledger
 
 MARKS = {
     Verdict.REPRODUCED: "✓",

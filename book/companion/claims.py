@@ -44,7 +44,7 @@ class Claim:
     relation: Relation = "="
     """How the recomputed value should stand to the printed one."""
     function: str = ""
-    """Name of the function in ``softgrip.ledger.chapter_N`` that recomputes it."""
+    """Name of the function in ``book.chapter_N.numbers`` that recomputes it."""
     arguments: dict[str, Any] = field(default_factory=dict)
     """From stated inputs; without them (``stated = false``) only the assumption is tried."""
     stated: bool = True

@@ -2,7 +2,7 @@
 
 from collections import Counter
 
-from softgrip.ledger.verdict import Entry, Verdict
+from book.companion.verdict import Entry, Verdict
 
 
 def counts_table(entries: list[Entry]) -> str:

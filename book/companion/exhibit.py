@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Literal, TypeVar
 
 from softgrip.errors import InvalidInputError, UnknownNameError
+from softgrip.logs.reader import read_log
 from softgrip.provenance import DataFile, Provenance, data_file, describe
-from softgrip.rig.log_reader import read_log
 
 Kind = Literal["figure", "table"]
 Make = TypeVar("Make", bound=Callable[..., object])
@@ -63,40 +63,12 @@ class Exhibit:
 
 
 EXHIBITS: dict[tuple[Kind, str], Exhibit] = {}
-CHAPTERS = {
-    "2": (
-        "chapter_2_element",
-        "chapter_2_pad",
-        "chapter_2_kind",
-        "chapter_2_force",
-        "chapter_2_grasp",
-        "chapter_2_diagrams",
-        "tables_2_element",
-        "tables_2_pad",
-        "tables_2_kind",
-        "tables_2_force",
-        "tables_2_grasp",
-    ),
-    "3": ("chapter_3", "chapter_3_fem", "chapter_3_control", "tables_3", "tables_3_control"),
-    "4": ("chapter_4", "chapter_4_control", "tables_4"),
-    "5": (
-        "chapter_5",
-        "chapter_5_dynamics",
-        "chapter_5_cantilever",
-        "tables_5",
-        "tables_5_dynamics",
-    ),
-    "6": (
-        "chapter_6",
-        "chapter_6_diagram",
-        "chapter_6_rig",
-        "chapter_6_grasp",
-        "chapter_6_study",
-        "tables_6",
-        "tables_6_rig",
-    ),
-}
-"""The files that hold a chapter's figures and tables."""
+BOOK = Path(__file__).parent.parent
+
+
+def chapters() -> list[str]:
+    """Return the numbers of the chapters that have a folder."""
+    return sorted(folder.name.removeprefix("chapter_") for folder in BOOK.glob("chapter_*"))
 
 
 def _register(
@@ -164,12 +136,14 @@ def table(
 
 
 def _register_chapter(chapter: str) -> None:
-    for module in CHAPTERS[chapter]:
-        import_module(f"softgrip.figures.{module}")
+    """Import the files of a chapter that hold figures and tables: their names say so."""
+    for pattern in ("diagram*.py", "figures*.py", "tables*.py"):
+        for file in sorted((BOOK / f"chapter_{chapter}").glob(pattern)):
+            import_module(f"book.chapter_{chapter}.{file.stem}")
 
 
 def exhibit(title: str) -> Exhibit:
-    """Find a figure or table by its title, importing its chapter's file only.
+    """Find a figure or table by its title, importing its chapter's files only.
 
     Parameters
     ----------
@@ -183,7 +157,7 @@ def exhibit(title: str) -> Exhibit:
     """
     kind, _, number = title.lower().partition(" ")
     chapter = number.partition(".")[0]
-    if chapter in CHAPTERS:
+    if chapter in chapters():
         _register_chapter(chapter)
     for found in EXHIBITS.values():
         if (found.kind, found.number.lower()) == (kind, number):
@@ -220,6 +194,6 @@ def with_logs(item: Exhibit, logs: Sequence[Path | str]) -> Exhibit:
 
 def exhibits() -> list[Exhibit]:
     """Return every figure and table of every chapter."""
-    for chapter in CHAPTERS:
+    for chapter in chapters():
         _register_chapter(chapter)
     return list(EXHIBITS.values())

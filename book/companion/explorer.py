@@ -11,9 +11,9 @@ from typing import Any, Literal
 import ipywidgets as widgets
 from matplotlib.figure import Figure
 
+from book.companion.frames import PAGE, Frame, check_count, render
+from book.companion.sliders import Slider, Value
 from softgrip.errors import InvalidInputError
-from softgrip.explore.frames import PAGE, Frame, check_count, render
-from softgrip.explore.sliders import Slider, Value
 
 Mode = Literal["live", "static"]
 MODE_VARIABLE = "SOFTGRIP_BOOK"

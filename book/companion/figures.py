@@ -1,4 +1,4 @@
-"""``python -m softgrip.figures [NAME ...]``: write figures and tables into a folder.
+"""``python -m book.companion.figures [NAME ...]``: write figures and tables into a folder.
 
 Without a name all are written; a name is a title ("Figure 5.1") or a file's name ("figure-5-1").
 """
@@ -6,8 +6,8 @@ Without a name all are written; a name is a title ("Figure 5.1") or a file's nam
 import argparse
 from pathlib import Path
 
-from softgrip.figures.exhibit import exhibit, exhibits
-from softgrip.figures.save import save
+from book.companion.exhibit import exhibit, exhibits
+from book.companion.save import save
 
 
 def _title(name: str) -> str:
@@ -17,7 +17,7 @@ def _title(name: str) -> str:
 
 def main() -> None:
     """Write the exhibits that are asked for, and say where."""
-    parser = argparse.ArgumentParser(prog="python -m softgrip.figures", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m book.companion.figures", description=__doc__)
     parser.add_argument("names", nargs="*", metavar="NAME")
     parser.add_argument("--into", type=Path, default=Path("book/_build/figures"), metavar="FOLDER")
     asked = parser.parse_args()

@@ -1,4 +1,4 @@
-"""``python -m softgrip.ledger``: judge every claim, write ``ledger.json``, print the counts.
+"""``python -m book.companion.ledger``: judge every claim, write ``ledger.json``, print the counts.
 
 ``--accept`` also writes the verdicts that the tests expect from now on, and the counts in the
 README; the change then shows in the diff.
@@ -11,8 +11,8 @@ import re
 from collections import Counter
 from pathlib import Path
 
-from softgrip.ledger.counts import counts_table
-from softgrip.ledger.verdict import ledger
+from book.companion.counts import counts_table
+from book.companion.verdict import ledger
 from softgrip.provenance import data_folder
 
 EXPECTED = "claims/expected.csv"
@@ -35,7 +35,7 @@ def write_counts(readme: Path, table: str) -> None:
 
 def main() -> None:
     """Judge, write and print."""
-    parser = argparse.ArgumentParser(prog="python -m softgrip.ledger", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m book.companion.ledger", description=__doc__)
     parser.add_argument("--into", type=Path, default=Path("book/_build/ledger.json"))
     parser.add_argument("--accept", action="store_true")
     asked = parser.parse_args()
@@ -47,7 +47,7 @@ def main() -> None:
     print(f"{len(entries):5} claims, written to {asked.into}")
     if asked.accept:
         rows = "".join(f"{e.claim.id},{e.verdict}\n" for e in entries)
-        head = "# provenance: printed\n# source: softgrip.ledger --accept\n"
+        head = "# provenance: printed\n# source: book.companion.ledger --accept\n"
         (data_folder() / EXPECTED).write_text(f"{head}id,verdict\n{rows}")
     if Path("README.md").is_file():
         write_counts(Path("README.md"), counts_table(entries))

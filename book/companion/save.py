@@ -11,8 +11,8 @@ from matplotlib.collections import PathCollection, PolyCollection
 from matplotlib.container import BarContainer
 from matplotlib.figure import Figure
 
-from softgrip.figures.exhibit import Exhibit
-from softgrip.figures.style import style
+from book.companion.exhibit import Exhibit
+from book.companion.style import style
 
 
 def make(exhibit: Exhibit) -> tuple[Any, float]:

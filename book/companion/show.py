@@ -17,10 +17,10 @@ from typing import Any
 
 import pandas as pd
 
-from softgrip.figures.exhibit import Exhibit, exhibit, with_logs
-from softgrip.figures.save import make, save, svg
-from softgrip.figures.verdicts import chip
-from softgrip.ledger import Entry, Verdict, ledger
+from book.companion.chips import chip
+from book.companion.exhibit import Exhibit, exhibit, with_logs
+from book.companion.save import make, save, svg
+from book.companion.verdict import Entry, Verdict, ledger
 
 FOLDER = Path("_build/figures")
 """Where the book's build, which runs pages in the folder of the book, puts their pictures."""

@@ -1,30 +1,28 @@
-"""The simulated logs that the book brings; ``python -m softgrip.rig.simulated_logs`` makes them.
+"""The simulated logs that the book brings; ``python -m book.companion.simulated_logs`` makes them.
 
 With names as arguments it makes these alone; each is the same, byte by byte, each time. A chapter
 says in its file ``logs.py`` what writes each of its logs.
 """
 
 import argparse
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
+from importlib import import_module
 from pathlib import Path
 
+from book.companion.exhibit import BOOK
 from softgrip.errors import UnknownNameError
 from softgrip.provenance import data_folder
-from softgrip.rig import gripper_logs, logs_chapter_3, logs_chapter_4, logs_chapter_5, pad_logs
 
 FOLDER = "simulated"
-COMMAND = "python -m softgrip.rig.simulated_logs"
+COMMAND = "python -m book.companion.simulated_logs"
 
 
-def writers() -> Mapping[str, Callable[[Path, str], None]]:
+def writers() -> dict[str, Callable[[Path, str], None]]:
     """Return what writes each log to a path, with the command that makes it, by name."""
-    return (
-        pad_logs.LOGS
-        | logs_chapter_3.LOGS
-        | logs_chapter_4.LOGS
-        | logs_chapter_5.LOGS
-        | gripper_logs.LOGS
-    )
+    found: dict[str, Callable[[Path, str], None]] = {}
+    for file in sorted(BOOK.glob("chapter_*/logs.py")):
+        found |= import_module(f"book.{file.parent.name}.logs").LOGS
+    return found
 
 
 def make(name: str, folder: Path | None = None) -> Path:

@@ -7,8 +7,8 @@ from numbers import Real
 
 import numpy as np
 
+from book.companion.frames import MAX_FRAMES
 from softgrip.errors import InvalidInputError
-from softgrip.explore.frames import MAX_FRAMES
 
 Value = float | str
 

@@ -4,12 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from importlib import import_module
-from pathlib import Path
-from pkgutil import iter_modules
 from typing import Any, TypeVar
 
+from book.companion.claims import Claim, read_claims
 from softgrip.errors import DataFileError
-from softgrip.ledger.claims import Claim, read_claims
 
 CLOSE = 0.05
 """Largest relative difference that is still called close."""
@@ -113,30 +111,12 @@ def simulated(function: Function) -> Function:
     return function
 
 
-def _functions(chapter: int) -> dict[str, Callable[..., float]]:
-    """Return what the files ``chapter_N.py`` and ``chapter_N_*.py`` define, by name."""
-    own = f"chapter_{chapter}"
-    files = [module.name for module in iter_modules([str(Path(__file__).parent)])]
-    parts = [
-        import_module(f"softgrip.ledger.{name}")
-        for name in files
-        if name == own or name.startswith(f"{own}_")
-    ]
-    return {
-        name: value
-        for part in parts
-        for name, value in vars(part).items()
-        if getattr(value, "__module__", "") == part.__name__
-    }
-
-
 def _function(claim: Claim) -> Callable[..., float]:
-    found = _functions(claim.chapter).get(claim.function)
+    module = import_module(f"book.chapter_{claim.chapter}.numbers")
+    found: Callable[..., float] | None = getattr(module, claim.function, None)
     if found is None:
         raise DataFileError(
-            claim.id,
-            expected=f"a function of softgrip.ledger.chapter_{claim.chapter}",
-            got=claim.function,
+            claim.id, expected=f"a function of {module.__name__}", got=claim.function
         )
     if getattr(found, "simulated", False) and claim.basis == "inputs" and claim.stated:
         raise DataFileError(

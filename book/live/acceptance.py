@@ -8,11 +8,11 @@ import pandas as pd
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from softgrip.figures.style import GREY, LUDWICK, MEASURED, WIDTH, style
+from book.companion.style import GREY, LUDWICK, MEASURED, WIDTH, style
+from softgrip.board.calibration import SensorLine
+from softgrip.logs.reader import read_log
+from softgrip.logs.schema import Log
 from softgrip.rig.acceptance import Experiment, judge
-from softgrip.rig.board_calibration import SensorLine
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.log_schema import Log
 
 
 def _number(value: float) -> str:

@@ -9,9 +9,9 @@ from pathlib import Path
 from IPython.display import HTML
 from matplotlib.figure import Figure
 
+from book.companion.exhibit import exhibit, with_logs
+from book.companion.save import make, svg
 from softgrip.errors import InvalidInputError
-from softgrip.figures.exhibit import exhibit, with_logs
-from softgrip.figures.save import make, svg
 
 EMPHASIS = re.compile(r"\*([^*]+)\*")
 

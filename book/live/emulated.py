@@ -4,10 +4,10 @@ import csv
 
 import pandas as pd
 
-from softgrip.figures.rig_protocol import BITS, telemetry_bytes
+from book.live.protocol import BITS, telemetry_bytes
+from softgrip.board.firmware.header import build
+from softgrip.board.protocol import BAUD
 from softgrip.provenance import data_file
-from softgrip.rig.firmware.header import build
-from softgrip.rig.protocol import BAUD
 
 FILE = "rig/emulated_board.csv"
 EMULATED_BITS = BITS + 1

@@ -1,17 +1,17 @@
 """The experiments of the live page: a step and a staircase of Chapter 4, of one moving reference.
 
-The gains are those of `rig.pid_gains`, designed on the simulated rig: on another rig they are a
-first guess, and `python -m softgrip.rig.pid_gains` tells how they were found.
+The gains are those of `numbers.pid_gains`, designed on the simulated rig: on another rig they are a
+first guess, and `python -m book.chapter_4.pid_gains` tells how they were found.
 """
 
 from functools import partial
 
 import numpy as np
 
+from book.chapter_4.controllers import controller
 from softgrip.control.pid import PERIOD
+from softgrip.control.staircase import staircase
 from softgrip.rig.live_experiment import LiveExperiment
-from softgrip.rig.pid_controllers import controller
-from softgrip.rig.staircase import staircase
 from softgrip.units import DEG
 
 STEP = 60 * DEG

@@ -3,12 +3,12 @@
 from pathlib import Path
 from typing import Any
 
-from softgrip.figures.rig_chapter import image
-from softgrip.figures.rig_live import LivePlot
-from softgrip.figures.save import svg
-from softgrip.rig.connection import Connection
+from book.companion.save import svg
+from book.live.chapter_figure import image
+from book.live.experiments import experiments
+from book.live.plot import LivePlot
+from softgrip.rig.interface import Connection
 from softgrip.rig.live import LiveRun
-from softgrip.rig.live_experiments import experiments
 from softgrip.rig.live_rig import check_simulated
 
 

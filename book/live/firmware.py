@@ -5,13 +5,13 @@ from pathlib import Path
 
 import pandas as pd
 
+from softgrip.board.calibration import nominal
+from softgrip.board.firmware.header import SKETCH
+from softgrip.board.info import Limits, Scale
+from softgrip.board.protocol import CHANNELS, LIMITS
 from softgrip.errors import DataFileError
-from softgrip.rig.board_calibration import nominal
-from softgrip.rig.board_info import Limits, Scale
-from softgrip.rig.firmware.header import SKETCH
-from softgrip.rig.log_schema import PAD_CHANNELS
-from softgrip.rig.parameters import PumpParameters
-from softgrip.rig.protocol import CHANNELS, LIMITS
+from softgrip.logs.schema import PAD_CHANNELS
+from softgrip.simulator.parameters import PumpParameters
 from softgrip.units import REV
 
 README = SKETCH.parent / "README.md"

@@ -12,13 +12,13 @@ from typing import Any
 
 import ipywidgets as widgets
 
+from book.live.chapter_figure import image
+from book.live.experiments import experiments
+from book.live.finished import FinishedRun
+from book.live.plot import LivePlot
 from softgrip.errors import SoftgripError
-from softgrip.figures.rig_chapter import image
-from softgrip.figures.rig_finished import FinishedRun
-from softgrip.figures.rig_live import LivePlot
-from softgrip.rig.connection import Connection
+from softgrip.rig.interface import Connection
 from softgrip.rig.live import LiveRun
-from softgrip.rig.live_experiments import experiments
 from softgrip.rig.live_rig import check_period
 
 REDRAW_EVERY = 0.25

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from softgrip.figures.style import BLUE, GREEN, MEASURED, PRINTED, VERMILION, WIDTH, style
+from book.companion.style import BLUE, GREEN, MEASURED, PRINTED, VERMILION, WIDTH, style
 from softgrip.rig.live import Sample
 from softgrip.rig.live_experiment import LiveExperiment
 from softgrip.units import DEG, REV

@@ -5,11 +5,11 @@ from struct import calcsize
 
 import pandas as pd
 
-from softgrip.figures.verdicts import Markdown
-from softgrip.rig.firmware.header import TYPES
-from softgrip.rig.framing import LARGEST
-from softgrip.rig.message import Message
-from softgrip.rig.protocol import BAUD, MESSAGES, PROTOCOL_VERSION, TABLE, TELEMETRY
+from book.companion.chips import Markdown
+from softgrip.board.firmware.header import TYPES
+from softgrip.board.framing import LARGEST
+from softgrip.board.message import Message
+from softgrip.board.protocol import BAUD, MESSAGES, PROTOCOL_VERSION, TABLE, TELEMETRY
 
 FRAME = 2 + 2 + 1 + 1
 """Bytes of a frame beside its payload: id, number; CRC; the byte of COBS; the 0 at the end."""

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.actuator.section import Section, check_section, torque, wall_stress_ratio
+from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 from softgrip.units import MM, MPa
 
 Value = Any

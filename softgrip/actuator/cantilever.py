@@ -21,8 +21,8 @@ from scipy.optimize import brentq
 
 from softgrip.actuator.bending import Finger, check_power, modified_moment
 from softgrip.actuator.frequency import spring_constant
+from softgrip.arrays import Floats, read_only
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, read_only
 
 TOLERANCE = 1e-8
 """Of the boundary-value problem, relative; angles come out to about 1e-10 rad."""

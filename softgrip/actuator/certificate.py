@@ -20,8 +20,8 @@ from softgrip.actuator.bending import modified_moment
 from softgrip.actuator.design import DesignProblem, objective
 from softgrip.actuator.optimize import Design, evaluate, optimal_design
 from softgrip.actuator.section import Section, wall_stress_ratio
+from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 
 MOST_BOXES = 2_000_000
 

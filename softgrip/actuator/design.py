@@ -7,8 +7,8 @@ from typing import Any
 from softgrip.actuator.bending import Finger, bending_angle, check_power
 from softgrip.actuator.frequency import stiffness_product, stiffness_product_for
 from softgrip.actuator.section import Section, torque
+from softgrip.arrays import check_positive
 from softgrip.errors import InvalidInputError, SoftgripError
-from softgrip.materials.arrays import check_positive
 from softgrip.materials.table import material
 from softgrip.units import MM, MPa
 

@@ -21,8 +21,8 @@ from scipy.sparse.linalg import splu
 from skfem import Basis, BilinearForm, ElementHex0, ElementHex2, FacetBasis, LinearForm
 
 from softgrip.actuator.finger_mesh import Mesh
+from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 from softgrip.units import MPa
 
 Indices = NDArray[np.int64]

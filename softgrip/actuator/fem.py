@@ -28,7 +28,7 @@ from softgrip.actuator.elasticity import (
     stiffness,
 )
 from softgrip.actuator.finger_mesh import FingerShape, Mesh, finger_mesh
-from softgrip.materials.arrays import Floats
+from softgrip.arrays import Floats
 
 
 @dataclass(frozen=True)

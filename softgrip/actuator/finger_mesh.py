@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from skfem import MeshHex
 
 from softgrip.actuator.section import Section, check_section
+from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 from softgrip.units import MM
 
 Mesh = Any

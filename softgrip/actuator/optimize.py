@@ -19,8 +19,8 @@ from softgrip.actuator.design import (
     product,
 )
 from softgrip.actuator.section import Section, check_section, torque
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError, SoftgripError
-from softgrip.materials.arrays import Floats
 from softgrip.units import MM
 
 OPTIONS: dict[str, Any] = {

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.stats import linregress
 
+from softgrip.arrays import Floats
+from softgrip.board.errors import WrongBoardError
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.materials.arrays import Floats
 from softgrip.provenance import Provenance, describe
-from softgrip.rig.board_errors import WrongBoardError
-from softgrip.rig.parameters import SensorParameters
+from softgrip.simulator.parameters import SensorParameters
 
 ANY_BOARD = "any"
 COLUMNS = ("sensor", "gain", "offset", "residual", "low_count", "high_count")

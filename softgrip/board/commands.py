@@ -1,9 +1,9 @@
 """What a board can be told beside a speed: to stop, home, vent, and its limits."""
 
-from softgrip.rig.board_errors import CommandRefusedError
-from softgrip.rig.board_info import BoardInfo, Limits
-from softgrip.rig.board_line import BoardLine
-from softgrip.rig.protocol import (
+from softgrip.board.errors import CommandRefusedError
+from softgrip.board.info import BoardInfo, Limits
+from softgrip.board.line import BoardLine
+from softgrip.board.protocol import (
     CLEAR,
     COUNTERS,
     ESTOP,
@@ -14,8 +14,8 @@ from softgrip.rig.protocol import (
     Flag,
     Reason,
 )
-from softgrip.rig.session import Values
-from softgrip.rig.telemetry import Telemetry, reason_name
+from softgrip.board.session import Values
+from softgrip.board.telemetry import Telemetry, reason_name
 
 HOME_WITHIN = 60.0
 """s, for the whole stroke at a slow speed."""

@@ -6,19 +6,19 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.board.calibration import BoardCalibration, nominal
+from softgrip.board.commands import HUNG_AFTER, BoardCommands
+from softgrip.board.errors import BoardError
+from softgrip.board.line import BoardLine
+from softgrip.board.link import Link
+from softgrip.board.protocol import CHANNELS, PROTOCOL_VERSION, TELEMETRY_PERIOD
+from softgrip.board.telemetry import Telemetry
 from softgrip.errors import InvalidInputError
+from softgrip.logs.schema import LogHeader
 from softgrip.provenance import Provenance
-from softgrip.rig.board_calibration import BoardCalibration, nominal
-from softgrip.rig.board_commands import HUNG_AFTER, BoardCommands
-from softgrip.rig.board_errors import BoardError
-from softgrip.rig.board_line import BoardLine
-from softgrip.rig.link import Link
-from softgrip.rig.log_schema import LogHeader
-from softgrip.rig.motor import one_speed
-from softgrip.rig.parameters import PumpParameters
-from softgrip.rig.protocol import CHANNELS, PROTOCOL_VERSION, TELEMETRY_PERIOD
-from softgrip.rig.sensors import Measurement
-from softgrip.rig.telemetry import Telemetry
+from softgrip.simulator.motor import one_speed
+from softgrip.simulator.parameters import PumpParameters
+from softgrip.simulator.sensors import Measurement
 
 PRESSURE, FLEX = CHANNELS.index("pressure"), CHANNELS.index("flex_1")
 
@@ -127,7 +127,7 @@ class Rig(BoardCommands):
         info = self.info
         return LogHeader(
             provenance=Provenance.SIMULATED if self.emulated else Provenance.LOGGED,
-            source=f"softgrip.rig.driver on {self.line.port}",
+            source=f"softgrip.board.driver on {self.line.port}",
             back_end="emulated board" if self.emulated else "board",
             period=self.period,
             board=info.identity,

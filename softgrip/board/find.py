@@ -6,10 +6,10 @@ from typing import Protocol
 
 from serial.tools import list_ports
 
-from softgrip.rig.board_errors import BoardError, NoBoardError
-from softgrip.rig.handshake import greet
-from softgrip.rig.link import SerialLink
-from softgrip.rig.session import Session
+from softgrip.board.errors import BoardError, NoBoardError
+from softgrip.board.handshake import greet
+from softgrip.board.link import SerialLink
+from softgrip.board.session import Session
 
 VENDORS = {0x2341: "Arduino", 0x2A03: "Arduino", 0x1A86: "CH340 of a clone", 0x0403: "FTDI"}
 

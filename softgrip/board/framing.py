@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from cobs import cobs
 
-from softgrip.rig.protocol import MESSAGES
+from softgrip.board.protocol import MESSAGES
 
 LARGEST = 4 + max(message.layout.size for message in MESSAGES)
 """Bytes of the longest frame before it is stuffed."""

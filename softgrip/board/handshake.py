@@ -1,14 +1,14 @@
 """The first words between a host and a board: whether they speak the same language."""
 
-from softgrip.rig.board_errors import (
+from softgrip.board.errors import (
     CommandRefusedError,
     NoAnswerError,
     NoBoardError,
     VersionMismatchError,
 )
-from softgrip.rig.protocol import HELLO, PROTOCOL_VERSION, TABLE, Reason
-from softgrip.rig.session import Session, Values
-from softgrip.rig.telemetry import reason_name
+from softgrip.board.protocol import HELLO, PROTOCOL_VERSION, TABLE, Reason
+from softgrip.board.session import Session, Values
+from softgrip.board.telemetry import reason_name
 
 GREET_WITHIN = 6.0
 """s: an Arduino that was reset by the opening of its port answers after one to two."""
@@ -43,7 +43,7 @@ def greet(session: Session, *, within: float = GREET_WITHIN) -> Values:
         raise VersionMismatchError(
             session.port,
             f"the firmware is not of this softgrip, which speaks protocol {PROTOCOL_VERSION} "
-            f"({TABLE:08x}): flash softgrip/rig/firmware/softgrip_rig/softgrip_rig.ino",
+            f"({TABLE:08x}): flash softgrip/board/firmware/softgrip_rig/softgrip_rig.ino",
             command="hello",
         )
     return told

@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 
+from softgrip.board.calibration import SensorLine
+from softgrip.board.protocol import SPEED_SCALE, ResetCause, SetUp
+from softgrip.board.session import Values
 from softgrip.errors import InvalidInputError
-from softgrip.rig.board_calibration import SensorLine
-from softgrip.rig.parameters import PumpParameters
-from softgrip.rig.protocol import SPEED_SCALE, ResetCause, SetUp
-from softgrip.rig.session import Values
+from softgrip.simulator.parameters import PumpParameters
 from softgrip.units import REV
 
 

@@ -5,15 +5,15 @@ from collections.abc import Callable
 
 from serial.tools import list_ports
 
-from softgrip.rig.board_calibration import BoardCalibration
-from softgrip.rig.board_errors import BoardError, ConnectionLostError, WrongBoardError
-from softgrip.rig.board_info import BoardInfo, Scale, integer
-from softgrip.rig.handshake import GREET_WITHIN, greet
-from softgrip.rig.link import Link, SerialLink
-from softgrip.rig.parameters import PumpParameters
-from softgrip.rig.protocol import Flag
-from softgrip.rig.session import Session
-from softgrip.rig.telemetry import Telemetry, in_words
+from softgrip.board.calibration import BoardCalibration
+from softgrip.board.errors import BoardError, ConnectionLostError, WrongBoardError
+from softgrip.board.handshake import GREET_WITHIN, greet
+from softgrip.board.info import BoardInfo, Scale, integer
+from softgrip.board.link import Link, SerialLink
+from softgrip.board.protocol import Flag
+from softgrip.board.session import Session
+from softgrip.board.telemetry import Telemetry, in_words
+from softgrip.simulator.parameters import PumpParameters
 
 TELEMETRY_WITHIN = 1.0
 TRY_EVERY = 0.2

@@ -10,10 +10,10 @@ from typing import Protocol, final
 
 import serial
 
+from softgrip.board.errors import ConnectionLostError, PortBusyError, PortUnavailableError
+from softgrip.board.port_lock import claim, holders, release
+from softgrip.board.protocol import BAUD
 from softgrip.errors import InvalidInputError
-from softgrip.rig.board_errors import ConnectionLostError, PortBusyError, PortUnavailableError
-from softgrip.rig.port_lock import claim, holders, release
-from softgrip.rig.protocol import BAUD
 
 WRITE_WITHIN = 0.5
 """s: a line that takes no bytes for so long is a broken one."""

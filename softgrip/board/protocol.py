@@ -1,9 +1,9 @@
 """What the host and the rig's board say to each other: the one table of messages.
 
-A frame (`softgrip.rig.framing`) is a message's id, a sequence number and its fields, little-endian
-and unpadded. The header of the firmware, ``firmware/softgrip_rig/protocol.h``, is made from this
-table by ``python -m softgrip.rig.firmware.header``, so that the two sides cannot disagree unseen:
-HELLO carries the table's checksum, and the board refuses another one.
+A frame (`softgrip.board.framing`) is a message's id, a sequence number and its fields,
+little-endian and unpadded. The header of the firmware, ``firmware/softgrip_rig/protocol.h``, is
+made from this table by ``python -m softgrip.board.firmware.header``, so that the two sides cannot
+disagree unseen: HELLO carries the table's checksum, and the board refuses another one.
 
 Sequence numbers. The host numbers its frames 0 to 255 and round again; an answer bears the number
 of what it answers. HELLO sets the count. Of the others, the board carries out a frame 1 to 127
@@ -14,9 +14,9 @@ without carrying it out, and refuses an older one as stale; an emergency stop it
 from enum import IntEnum, IntFlag
 from zlib import crc32
 
-from softgrip.rig.log_schema import PAD_CHANNELS
-from softgrip.rig.message import Field
-from softgrip.rig.message import Message as Message
+from softgrip.board.message import Field
+from softgrip.board.message import Message as Message
+from softgrip.logs.schema import PAD_CHANNELS
 
 PROTOCOL_VERSION = 1
 BAUD = 250_000

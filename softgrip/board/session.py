@@ -3,16 +3,16 @@
 import threading
 from collections.abc import Callable
 
-from softgrip.rig.board_errors import (
+from softgrip.board.errors import (
     BoardError,
     BoardResetError,
     CommandRefusedError,
     NoAnswerError,
 )
-from softgrip.rig.framing import Frame, FrameReader, encode
-from softgrip.rig.link import Link
-from softgrip.rig.protocol import ACK, BY_ID, HEARTBEAT, NACK, TELEMETRY, Flag, Message, Reason
-from softgrip.rig.telemetry import Telemetry, in_words, reason_name
+from softgrip.board.framing import Frame, FrameReader, encode
+from softgrip.board.link import Link
+from softgrip.board.protocol import ACK, BY_ID, HEARTBEAT, NACK, TELEMETRY, Flag, Message, Reason
+from softgrip.board.telemetry import Telemetry, in_words, reason_name
 
 HEARTBEAT_EVERY = 0.05
 """s: a quarter of the silence that the board allows."""

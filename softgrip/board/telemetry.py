@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from softgrip.rig.protocol import TELEMETRY, Flag, Reason
+from softgrip.board.protocol import TELEMETRY, Flag, Reason
 
 
 @dataclass(frozen=True)

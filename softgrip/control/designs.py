@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import control
 import numpy as np
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.control.loop import SPEED_LIMIT, LoopResult, run_loop
 from softgrip.control.pid import PID, Gains
 from softgrip.control.pressure_command import SET_PRESSURE
@@ -24,7 +25,6 @@ from softgrip.control.state_space_plant import StateSpacePlant
 from softgrip.control.tuning import Tuned, tune
 from softgrip.control.ziegler_nichols import ziegler_nichols
 from softgrip.dynamics.second_order import SecondOrder, full_state_space, state_space
-from softgrip.materials.arrays import Floats, check_positive
 from softgrip.units import DEG
 
 STEP = 60 * DEG

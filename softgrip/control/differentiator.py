@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.signal import savgol_coeffs
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.control.pid import PERIOD
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 
 LEVANT = (2.0, 1.5 * 2.0**0.5, 1.1)
 """Levant's gains 2, 1.5 and 1.1 of the second order, in the form that is not recursive."""

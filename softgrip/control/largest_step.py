@@ -5,10 +5,10 @@ import numpy as np
 from scipy.linalg import toeplitz
 from scipy.optimize import linprog
 
+from softgrip.arrays import check_positive
 from softgrip.control.pid import PERIOD
 from softgrip.control.state_space_plant import pulse_response
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import check_positive
 
 
 def largest_step(

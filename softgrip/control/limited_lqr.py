@@ -8,13 +8,13 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT, LoopResult, run_loop
 from softgrip.control.lqr import Weights, derivatives_from_full_state, input_gain, lqr_gain
 from softgrip.control.state_feedback import StateFeedback
 from softgrip.control.state_space_plant import StateSpacePlant
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.second_order import SecondOrder, full_state_space
-from softgrip.materials.arrays import Floats
 
 TRIED = tuple(
     Weights(p=float(10**power), q=(1.0, q2, 0.0))

@@ -8,9 +8,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats, check_positive, read_only
 from softgrip.control.pid import PERIOD
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive, read_only
 from softgrip.units import REV
 
 SPEED_LIMIT = 5 * REV

@@ -12,10 +12,10 @@ from typing import final
 import control
 import numpy as np
 
+from softgrip.arrays import Floats, check_positive, read_only
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive, read_only
 
 FINGER = SecondOrder(2.86, 0.7)
 """Design 1: natural frequency of Table 3.3, damping ratio of Section 3.4, without its gain."""

@@ -6,10 +6,10 @@ from numpy.typing import ArrayLike
 from scipy.linalg import toeplitz
 from scipy.optimize import linprog
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.control.pid import PERIOD
 from softgrip.control.state_space_plant import StateSpacePlant, pulse_response
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 
 
 def farthest(system: control.StateSpace, limit: float, time: ArrayLike) -> Floats:

@@ -6,13 +6,13 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import canonical_form
 from softgrip.control.pid import PERIOD
 from softgrip.control.state_feedback import SPEED_DIGITS
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 from softgrip.units import DEG
 
 

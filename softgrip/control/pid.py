@@ -7,8 +7,8 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 
 PERIOD = 0.025
 """Time between two updates on the rig, s."""

@@ -23,9 +23,9 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.control.loop import SPEED_LIMIT, Controller
 from softgrip.control.pid import PERIOD
-from softgrip.materials.arrays import Floats, check_positive
 from softgrip.units import MPa
 
 SET_PRESSURE = 0.15 * MPa

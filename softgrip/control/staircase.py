@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from softgrip.arrays import Floats, check_positive, read_only
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive, read_only
 from softgrip.units import DEG
 
 HOLD = 1.2

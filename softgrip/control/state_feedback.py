@@ -5,10 +5,10 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.control.differentiator import Differentiator
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 
 SPEED_DIGITS = 6
 """Decimals of a commanded speed in rad/s: finer than any motor, and coarser than the last bits of

@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import OptimizeResult, minimize
 
+from softgrip.arrays import Floats, read_only
 from softgrip.control.loop import LoopResult
 from softgrip.control.pid import Gains
 from softgrip.control.step_metrics import overshoot
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, read_only
 
 Simulate = Callable[[Gains], LoopResult]
 Objective = Callable[[LoopResult], float]

@@ -4,10 +4,10 @@ from typing import Literal, get_args
 
 import numpy as np
 
+from softgrip.arrays import check_positive
 from softgrip.control.pid import Gains
 from softgrip.control.reaction_curve import ReactionCurve
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import check_positive
 
 Kind = Literal["P", "PI", "PID"]
 

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.dynamics.identify import Estimate
 from softgrip.dynamics.ludwick import LudwickFinger
 from softgrip.dynamics.ludwick_response import pressure_response
-from softgrip.materials.arrays import Floats
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,10 @@ from numpy.typing import ArrayLike
 from scipy.optimize import least_squares
 from scipy.stats import t as student
 
+from softgrip.arrays import Floats
 from softgrip.dynamics.sampled_response import Hold, response
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 
 LEAST_SAMPLES = 8
 START_DAMPING = (0.2, 0.7, 2.0)

@@ -11,8 +11,8 @@ from math import ceil
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 
 Derivative = Callable[[float, Floats, Floats], None]
 """``derivative(time, state, slope)`` writes the slope; both arrays have shape (states, runs)."""

@@ -2,10 +2,10 @@
 
 from typing import Any
 
+from softgrip.arrays import check_positive
 from softgrip.dynamics.ludwick import LudwickFinger
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import check_positive
 
 Value = Any
 """A float or an array: a law returns what it was given, and broadcasts."""

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.dynamics.chunks import chunks
 from softgrip.dynamics.integrate import Derivative, rk4
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 
 Value = Any
 """A float or an array: a law returns what it was given, and broadcasts."""

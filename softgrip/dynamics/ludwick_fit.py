@@ -5,12 +5,12 @@ from numpy.typing import ArrayLike
 from scipy.optimize import least_squares
 from scipy.stats import t as student
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.dynamics.fitted_finger import FittedFinger
 from softgrip.dynamics.identify import LEAST_SAMPLES, Estimate
 from softgrip.dynamics.ludwick import LudwickFinger
 from softgrip.dynamics.ludwick_response import pressure_response
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 
 LEAST = np.array([0.0, 0.0, 0.0, 1.0])
 """Least mass, damping, stiffness and power; what is fitted is the logarithm of what is above."""

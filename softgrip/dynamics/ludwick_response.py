@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.dynamics.integrate import rk4
 from softgrip.dynamics.ludwick import LudwickFinger, derivative
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 
 LARGEST_STEP = 0.025
 """Of the integration, s."""

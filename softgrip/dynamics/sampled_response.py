@@ -5,9 +5,9 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.dynamics.second_order import SecondOrder, free_motion
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 
 Hold = Literal["linear", "zero"]
 

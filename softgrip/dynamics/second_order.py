@@ -7,8 +7,8 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 
 
 @final

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 
 
 @dataclass(frozen=True)

@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 from scipy.special import ndtri
 
+from softgrip.arrays import Floats
 from softgrip.gripper.gripper_batch import GripperBatch, uniforms
 from softgrip.gripper.internal_model import ControllerMatrices
 from softgrip.gripper.sampled_plant import held_motion
 from softgrip.gripper.trial import Trial
-from softgrip.materials.arrays import Floats
 
 
 def unaware(controller: ControllerMatrices) -> ControllerMatrices:

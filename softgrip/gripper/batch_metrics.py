@@ -12,9 +12,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from softgrip.arrays import Floats
 from softgrip.gripper.gripper_batch import Bools, GripperBatch
 from softgrip.gripper.trial import Trial
-from softgrip.materials.arrays import Floats
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.materials.arrays import Floats, check_positive
+from softgrip.arrays import Floats, check_positive
 from softgrip.units import MM
 
 SMALL_ANGLE = 1e-4

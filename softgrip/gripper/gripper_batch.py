@@ -6,10 +6,10 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.plant import Gripper
 from softgrip.gripper.uncertainty import DAMPING_BOUND, STIFFNESS_BOUND
-from softgrip.materials.arrays import Floats
 
 Bools = NDArray[np.bool_]
 

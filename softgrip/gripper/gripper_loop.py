@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.signal import cont2discrete
 
+from softgrip.arrays import Floats, check_positive, read_only
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.internal_model import ControllerMatrices, InternalModelController
 from softgrip.gripper.plant import Gripper, state_space
-from softgrip.materials.arrays import Floats, check_positive, read_only
 
 
 @dataclass(frozen=True)

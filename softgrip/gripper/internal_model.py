@@ -14,10 +14,10 @@ from numpy.typing import ArrayLike
 from scipy.linalg import block_diag
 from scipy.signal import cont2discrete
 
+from softgrip.arrays import Floats, check_positive, read_only
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.inversion import LeftInverse, filtered_inverse
 from softgrip.gripper.plant import Gripper, state_space
-from softgrip.materials.arrays import Floats, check_positive, read_only
 
 PERIOD = 0.1
 """Sampling time of Section 6.4, s."""

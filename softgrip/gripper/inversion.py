@@ -13,9 +13,9 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats, read_only
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.plant import Gripper
-from softgrip.materials.arrays import Floats, read_only
 
 Complex = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
 

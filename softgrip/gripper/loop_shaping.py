@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike
 from scipy.linalg import solve_continuous_are
 from scipy.optimize import minimize_scalar
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 
 SUBOPTIMAL = 1.1
 """Factor on the least gamma, without which the controller has a pole that runs to infinity."""

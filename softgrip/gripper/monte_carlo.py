@@ -6,6 +6,7 @@ from typing import Literal, final
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.dynamics.chunks import chunks
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.batch_loop import loop_states
@@ -14,7 +15,6 @@ from softgrip.gripper.gripper_batch import GripperBatch
 from softgrip.gripper.internal_model import ControllerMatrices
 from softgrip.gripper.sampled_plant import held_motion
 from softgrip.gripper.trial import Trial
-from softgrip.materials.arrays import Floats
 
 Keep = Literal["metrics", "trajectories"]
 

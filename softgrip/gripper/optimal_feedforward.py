@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 from scipy.optimize import linprog
 
+from softgrip.arrays import Floats, check_positive, read_only
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.gripper_batch import GripperBatch
 from softgrip.gripper.monte_carlo import simulate
 from softgrip.gripper.plant import Gripper
 from softgrip.gripper.reach import project
 from softgrip.gripper.trial import Trial
-from softgrip.materials.arrays import Floats, check_positive, read_only
 
 
 @dataclass(frozen=True)

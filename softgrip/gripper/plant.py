@@ -6,8 +6,8 @@ from typing import final
 import control
 import numpy as np
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 
 
 @final

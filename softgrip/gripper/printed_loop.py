@@ -4,13 +4,13 @@ from typing import Any
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.gripper.gripper_loop import GripperRun, run_gripper
 from softgrip.gripper.internal_model import PERIOD, InternalModelController
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.plant import PRINTED
 from softgrip.gripper.reach import project
 from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
-from softgrip.materials.arrays import Floats
 
 FILTERS = {"4.8/s": FAST, "2/s": SLOW}
 """The printed filters by their target loops."""

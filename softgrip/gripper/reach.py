@@ -11,10 +11,10 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats, check_positive, read_only
 from softgrip.errors import InvalidInputError, SoftgripError
 from softgrip.gripper.inversion import Complex
 from softgrip.gripper.plant import Gripper
-from softgrip.materials.arrays import Floats, check_positive, read_only
 
 TOLERANCE = 0.1
 """Share of a target that may lie outside the image: Section 6.4 accepts 0.082 for equal angles."""

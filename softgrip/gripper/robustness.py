@@ -15,11 +15,11 @@ from numpy.typing import ArrayLike
 from scipy.linalg import block_diag
 from scipy.signal import cont2discrete
 
+from softgrip.arrays import Floats
 from softgrip.gripper.internal_model import ControllerMatrices
 from softgrip.gripper.inversion import Complex, LeftInverse, filtered_inverse
 from softgrip.gripper.plant import FingerDynamics, Gripper, state_space
 from softgrip.gripper.uncertainty import DAMPING_BOUND, STIFFNESS_BOUND
-from softgrip.materials.arrays import Floats
 
 
 @final

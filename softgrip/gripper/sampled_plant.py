@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softgrip.materials.arrays import Floats, check_positive
+from softgrip.arrays import Floats, check_positive
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import check_positive
 
 FAST = (
     (1009.0, 2.52e5, 6.829e5, 1.027e6),

@@ -7,10 +7,10 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.inversion import LeftInverse, filtered_inverse
 from softgrip.gripper.plant import Gripper, state_space
-from softgrip.materials.arrays import Floats
 
 TRACKED = 1e-3
 """Relative error at rest that counts as tracked: the printed filters have four digits."""

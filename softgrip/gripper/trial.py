@@ -5,8 +5,8 @@ from typing import final
 
 import numpy as np
 
+from softgrip.arrays import check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import check_positive
 
 
 @final

@@ -7,11 +7,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import linprog
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.inversion import Complex
 from softgrip.gripper.plant import FingerDynamics
 from softgrip.gripper.shaping_filter import filter_state_space
-from softgrip.materials.arrays import Floats, check_positive
 
 DAMPING_BOUND, STIFFNESS_BOUND = 0.143, 0.059
 """Largest deviations of C_n and K_n from their means over the step tests of Section 6.4."""

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.errors import DataFileError
-from softgrip.materials.arrays import Floats
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.log_schema import PAD_CHANNELS, Log
+from softgrip.logs.reader import read_log
+from softgrip.logs.schema import PAD_CHANNELS, Log
 from softgrip.tactile.contacts import ELEMENTS, KINDS, Contacts
 
 TRUTH = {"contact_x": "m", "contact_y": "m", "contact_angle": "rad"}

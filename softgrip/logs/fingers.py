@@ -10,13 +10,13 @@ from pathlib import Path
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.dynamics.identify import Identified, identify
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.gripper.plant import FingerDynamics, Gripper
 from softgrip.gripper.uncertainty import deviation
-from softgrip.materials.arrays import Floats
-from softgrip.rig.log_schema import Log
-from softgrip.rig.repeated_steps import read_alike
+from softgrip.logs.repeated_steps import read_alike
+from softgrip.logs.schema import Log
 
 
 def column(name: str, finger: int) -> str:

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from softgrip.arrays import Floats
 from softgrip.errors import DataFileError
-from softgrip.materials.arrays import Floats
-from softgrip.rig.log_schema import Log, LogHeader
+from softgrip.logs.schema import Log, LogHeader
 
 LATE = 1.5
 """Periods from a row to the next, above which rows are missing between them. A clock may be uneven

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from softgrip.errors import DataFileError
+from softgrip.logs.schema import Log
 from softgrip.pump.flow import Pump
-from softgrip.rig.log_schema import Log
 
 
 def pump_of(path: Path, log: Log) -> Pump:

@@ -8,17 +8,17 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import least_squares
 
+from softgrip.arrays import Floats
 from softgrip.errors import DataFileError
-from softgrip.materials.arrays import Floats
+from softgrip.logs.gaps import intervals
+from softgrip.logs.pump import pump_of
+from softgrip.logs.reader import read_log
+from softgrip.logs.swept_volume import check_start, swept_volume
 from softgrip.provenance import Provenance, data_file
 from softgrip.pump import pressure as law
 from softgrip.pump.capacity import CapacityEstimate, estimate
 from softgrip.pump.elastance import ElastanceModel, NoiseLevels, Prior
 from softgrip.pump.noise import NoiseEstimate, estimate_noise
-from softgrip.rig.log_gaps import intervals
-from softgrip.rig.log_pump import pump_of
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.push_log import check_start, swept_volume
 from softgrip.units import MPa
 
 LOW = 0.03 * MPa
@@ -98,7 +98,7 @@ def measure_noise() -> NoiseEstimate:
 
 
 def write_noise() -> None:
-    """Keep what `measure_noise` gave; ``python -m softgrip.rig.pressure_models`` calls it."""
+    """Keep what `measure_noise` gave; ``python -m softgrip.logs.pushes`` calls it."""
     path = data_file(NOISE).path
     header = "".join(line for line in path.open(encoding="utf-8") if line.startswith("#"))
     levels = asdict(measure_noise().levels)

@@ -9,8 +9,8 @@ from types import TracebackType
 from typing import Self
 
 from softgrip.errors import SoftgripError
-from softgrip.rig.log_schema import LogHeader
-from softgrip.rig.logs import INSTEAD, LogWriter
+from softgrip.logs.schema import LogHeader
+from softgrip.logs.writer import INSTEAD, LogWriter
 
 
 class RunLog:

@@ -9,9 +9,9 @@ from typing import cast
 import numpy as np
 
 from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.logs.gaps import check_period, gaps_of, places
+from softgrip.logs.schema import EVENT, KNOWN_UNITS, SCHEMA, Log, LogHeader, SetUp
 from softgrip.provenance import Provenance, data_file
-from softgrip.rig.log_gaps import check_period, gaps_of, places
-from softgrip.rig.log_schema import EVENT, KNOWN_UNITS, SCHEMA, Log, LogHeader, SetUp
 
 _NAME = re.compile(r"^(?P<name>[^\[\]]+) \[(?P<unit>[^\[\]]+)\]$")
 

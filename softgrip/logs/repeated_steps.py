@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.errors import DataFileError
-from softgrip.materials.arrays import Floats
-from softgrip.rig.log_gaps import refuse_gaps
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.log_schema import Log
+from softgrip.logs.gaps import refuse_gaps
+from softgrip.logs.reader import read_log
+from softgrip.logs.schema import Log
 
 
 def read_alike(paths: Sequence[Path | str]) -> list[Log]:

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import Literal, get_args
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 from softgrip.provenance import Provenance
 from softgrip.units import DEG, GRAM_FORCE, MM, PSI, REV, MPa
 

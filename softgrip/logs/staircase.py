@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.materials.arrays import Floats
-from softgrip.rig.log_gaps import even_clock, find_gaps, places, refuse_gaps
-from softgrip.rig.log_reader import read_log
+from softgrip.logs.gaps import even_clock, find_gaps, places, refuse_gaps
+from softgrip.logs.reader import read_log
 
 LONGEST = 0.25
 """Longest time, s, that may be missing in one place. The angle is bridged by a straight line, and a

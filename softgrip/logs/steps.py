@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.ndimage import uniform_filter1d
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.control.step_metrics import final_value, settling_time
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
-from softgrip.rig.log_gaps import even_clock, find_gaps, places, refuse_gaps
-from softgrip.rig.log_reader import read_log
+from softgrip.logs.gaps import even_clock, find_gaps, places, refuse_gaps
+from softgrip.logs.reader import read_log
 from softgrip.units import DEG
 
 WINDOW = 0.5

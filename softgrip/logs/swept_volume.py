@@ -4,10 +4,10 @@ from pathlib import Path
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.errors import DataFileError
-from softgrip.materials.arrays import Floats
-from softgrip.rig.log_gaps import gaps_of, intervals, places
-from softgrip.rig.log_schema import Log
+from softgrip.logs.gaps import gaps_of, intervals, places
+from softgrip.logs.schema import Log
 
 LONGEST = 2.0
 """Longest gap, s, over which a command that is the same before and after it is taken as held. A

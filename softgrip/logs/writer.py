@@ -10,7 +10,7 @@ from typing import Self
 import numpy as np
 
 from softgrip.errors import InvalidInputError
-from softgrip.rig.log_schema import EVENT, LogHeader
+from softgrip.logs.schema import EVENT, LogHeader
 
 SYNC_EVERY = 1.0
 """Longest time, s, that a written row waits for the disk, as long as rows keep coming."""
@@ -90,7 +90,7 @@ class LogWriter:
         ----------
         event
             Words without comma, quote, ``#`` or anything that cannot be printed, such as a break.
-            `run_log.plain` makes such of any.
+            `queued_writer.plain` makes such of any.
         **values
             A finite number for each column, in its unit; time must rise.
         """

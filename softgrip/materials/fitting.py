@@ -16,9 +16,9 @@ from typing import Literal, get_args
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
 from softgrip.materials import ludwick, tensile
-from softgrip.materials.arrays import Floats
 from softgrip.materials.table import table_5_1
 from softgrip.materials.tensile import TensileTest, up_to_peak
 from softgrip.provenance import data_file

@@ -1,6 +1,6 @@
 """Hooke's law: stress proportional to strain."""
 
-from softgrip.materials.arrays import Value, check_positive
+from softgrip.arrays import Value, check_positive
 
 
 def stress(strain: Value, young_modulus: float) -> Value:

@@ -6,8 +6,8 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Value, check_positive, tensile_curve
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Value, check_positive, tensile_curve
 from softgrip.materials.power_curve import fit_line, fit_power
 
 Loss = Literal["stress", "log", "strain"]

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 from softgrip.materials.least_squares import Prediction, prediction_interval
 from softgrip.materials.powerlaw import predictors
 from softgrip.materials.table import fractional_powers, properties, table_5_1

@@ -5,8 +5,8 @@ from collections.abc import Callable
 import numpy as np
 from scipy.optimize import minimize_scalar
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 
 EXPONENT_RANGE = (0.1, 10.0)
 """Exponents that are searched; those of elastomers in tension lie near 1 to 3."""

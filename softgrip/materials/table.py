@@ -8,8 +8,8 @@ from types import MappingProxyType
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.errors import UnknownNameError
-from softgrip.materials.arrays import Floats
 from softgrip.provenance import data_file
 from softgrip.units import MPa
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from softgrip.arrays import Floats, read_only
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, read_only
 from softgrip.materials.database import available, locate
 from softgrip.materials.tensile_file import read_rows
 from softgrip.units import MPa

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.errors import DataFileError
-from softgrip.materials.arrays import Floats
 
 COLUMNS = (
     "Time (s)",

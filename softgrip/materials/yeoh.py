@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.materials.arrays import Value, check_stretch, tensile_curve
+from softgrip.arrays import Value, check_stretch, tensile_curve
 
 
 @dataclass(frozen=True)

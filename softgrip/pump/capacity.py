@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats, read_only
+from softgrip.checks import check_above_zero, record
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, read_only
-from softgrip.pump.checks import check_above_zero, record
 from softgrip.pump.elastance import ElastanceModel, elastance_filter, transitions
 
 

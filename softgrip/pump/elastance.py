@@ -23,8 +23,8 @@ import numpy as np
 from filterpy.kalman import KalmanFilter
 from numpy.typing import ArrayLike
 
-from softgrip.materials.arrays import Floats
-from softgrip.pump.checks import check_above_zero, check_finite, check_not_negative
+from softgrip.arrays import Floats
+from softgrip.checks import check_above_zero, check_finite, check_not_negative
 
 
 @dataclass(frozen=True)

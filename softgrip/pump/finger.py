@@ -6,8 +6,8 @@ begin at atmospheric pressure, and at the end all of that charge is at the press
 
 from dataclasses import dataclass
 
+from softgrip.checks import check_above_zero, check_not_negative
 from softgrip.errors import InvalidInputError
-from softgrip.pump.checks import check_above_zero, check_not_negative
 from softgrip.pump.gas import ATMOSPHERE
 
 

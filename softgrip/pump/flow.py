@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from math import pi
 from types import MappingProxyType
 
+from softgrip.arrays import Value
+from softgrip.checks import check_above_zero
 from softgrip.errors import UnknownNameError
-from softgrip.materials.arrays import Value
-from softgrip.pump.checks import check_above_zero
 from softgrip.units import REV
 
 

@@ -23,9 +23,9 @@ then missed.
 
 import numpy as np
 
+from softgrip.arrays import Value
+from softgrip.checks import check_above_zero, check_not_negative
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Value
-from softgrip.pump.checks import check_above_zero, check_not_negative
 
 GAS_CONSTANT = 8.31446261815324
 """R of Eq. (4.3), J/(mol K)."""

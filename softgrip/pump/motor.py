@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softgrip.arrays import Value
+from softgrip.checks import check_above_zero
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Value
-from softgrip.pump.checks import check_above_zero
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize
 from scipy.stats import norm
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 from softgrip.pump.capacity import estimate
 from softgrip.pump.elastance import ElastanceModel, NoiseLevels
 

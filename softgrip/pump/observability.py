@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
+from softgrip.checks import check_above_zero
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
-from softgrip.pump.checks import check_above_zero
 
 
 def observability_matrix(transitions: ArrayLike, H: ArrayLike) -> Floats:

@@ -7,9 +7,9 @@ Areas, volumes of the 60 and 200 mL syringes and leads are the dissertation's (S
 from dataclasses import dataclass
 from math import pi
 
+from softgrip.arrays import Value
+from softgrip.checks import check_above_zero, check_not_negative
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Value
-from softgrip.pump.checks import check_above_zero, check_not_negative
 from softgrip.pump.flow import TABLE_4_1
 from softgrip.pump.motor import Motor, winding_limited_speed
 from softgrip.units import ML, REV

@@ -8,9 +8,9 @@ where Section 4.4 has it reduce the response time.
 import control
 import numpy as np
 
+from softgrip.arrays import Value
+from softgrip.checks import check_above_zero
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Value
-from softgrip.pump.checks import check_above_zero
 from softgrip.pump.flow import Pump
 
 

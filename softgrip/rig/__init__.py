@@ -1,1 +1,1 @@
-"""The rig: logs, and what makes them."""
+"""The rig: one interface to drive, over a simulated one, a replayed log, and a board."""

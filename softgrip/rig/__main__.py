@@ -5,12 +5,12 @@ import sys
 from collections.abc import Sequence
 from typing import get_args
 
+from softgrip.board.find import candidates
 from softgrip.errors import SoftgripError
+from softgrip.logs.reader import read_log
 from softgrip.rig.acceptance import Experiment, judge, report
 from softgrip.rig.check import run_check
 from softgrip.rig.connect import connect
-from softgrip.rig.find_board import candidates
-from softgrip.rig.log_reader import read_log
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -13,13 +13,13 @@ from typing import Literal, get_args
 import numpy as np
 
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.rig.calibration import FULL_PRESSURE
-from softgrip.rig.gripper_tests import column, fingers_of
-from softgrip.rig.log_gaps import EvenClock, even_clock, refuse_gaps
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.log_schema import Log
-from softgrip.rig.parameters import SensorParameters
-from softgrip.rig.step_log import AVERAGING, BRIDGED, WINDOW, step_figures
+from softgrip.logs.fingers import column, fingers_of
+from softgrip.logs.gaps import EvenClock, even_clock, refuse_gaps
+from softgrip.logs.reader import read_log
+from softgrip.logs.schema import Log
+from softgrip.logs.steps import AVERAGING, BRIDGED, WINDOW, step_figures
+from softgrip.simulator.calibration import FULL_PRESSURE
+from softgrip.simulator.parameters import SensorParameters
 from softgrip.units import DEG, MPa
 
 Experiment = Literal["lqr", "pid", "gripper"]

@@ -5,15 +5,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softgrip.rig.board_errors import BoardError
-from softgrip.rig.connection import Connection
-from softgrip.rig.driver import Rig
-from softgrip.rig.gripper_rig import together
-from softgrip.rig.log_gaps import find_gaps, places
-from softgrip.rig.log_schema import PAD_CHANNELS
-from softgrip.rig.protocol import TELEMETRY_PERIOD, Flag, SetUp
+from softgrip.board.driver import Rig
+from softgrip.board.errors import BoardError
+from softgrip.board.protocol import TELEMETRY_PERIOD, Flag, SetUp
+from softgrip.board.telemetry import Telemetry, in_words
+from softgrip.logs.gaps import find_gaps, places
+from softgrip.logs.schema import PAD_CHANNELS
+from softgrip.rig.interface import Connection
 from softgrip.rig.replay import ReplayConnection
-from softgrip.rig.telemetry import Telemetry, in_words
+from softgrip.simulator.gripper import together
 from softgrip.units import DEG, MPa
 
 LISTEN = 2.0

@@ -3,14 +3,14 @@
 import sys
 from pathlib import Path
 
+from softgrip.board.calibration import load
+from softgrip.board.driver import Rig
+from softgrip.board.find import find_board
+from softgrip.board.protocol import TELEMETRY_PERIOD
 from softgrip.errors import UnknownNameError
-from softgrip.rig.board_calibration import load
-from softgrip.rig.connection import Connection
-from softgrip.rig.driver import Rig
-from softgrip.rig.find_board import find_board
-from softgrip.rig.protocol import TELEMETRY_PERIOD
+from softgrip.rig.interface import Connection
 from softgrip.rig.replay import ReplayConnection
-from softgrip.rig.simulated_connection import simulated_finger, simulated_gripper
+from softgrip.rig.simulated import simulated_finger, simulated_gripper
 
 SIMULATED = {"simulated": simulated_finger, "simulated:gripper": simulated_gripper}
 
@@ -35,7 +35,7 @@ def connect(
     fingers, period
         Of a board; the others have their own.
     calibration
-        File of `board_calibration`, for a board; None for the data sheets' lines.
+        File of `calibration`, for a board; None for the data sheets' lines.
     seed
         Of chance, for a simulated rig.
     emulated

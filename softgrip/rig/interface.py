@@ -6,12 +6,12 @@ from typing import Protocol, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
+from softgrip.board.errors import CommandRefusedError
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
-from softgrip.rig.board_errors import CommandRefusedError
-from softgrip.rig.log_schema import LogHeader
-from softgrip.rig.motor import one_speed
-from softgrip.rig.sensors import Measurement
+from softgrip.logs.schema import LogHeader
+from softgrip.simulator.motor import one_speed
+from softgrip.simulator.sensors import Measurement
 
 
 class Connection(Protocol):

@@ -8,13 +8,13 @@ from weakref import WeakSet
 
 from numpy.typing import ArrayLike
 
+from softgrip.board.driver import Rig
 from softgrip.errors import InvalidInputError
-from softgrip.rig.connection import Connection
-from softgrip.rig.driver import Rig
-from softgrip.rig.experiment import Recording, record
+from softgrip.rig.interface import Connection
 from softgrip.rig.live_experiment import LiveExperiment, MovingReference
 from softgrip.rig.live_rig import check_period, listens
-from softgrip.rig.motor import one_speed
+from softgrip.rig.record import Recording, record
+from softgrip.simulator.motor import one_speed
 
 _STARTED: "WeakSet[LiveRun]" = WeakSet()
 

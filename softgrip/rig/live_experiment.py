@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.control.loop import Controller
 from softgrip.control.pid import PERIOD
-from softgrip.materials.arrays import Floats
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,9 @@
 """What the live page asks of a rig before it drives it."""
 
+from softgrip.board.driver import Rig
 from softgrip.control.pid import PERIOD
 from softgrip.errors import InvalidInputError
-from softgrip.rig.connection import Connection
-from softgrip.rig.driver import Rig
+from softgrip.rig.interface import Connection
 
 
 def listens(connection: Connection) -> bool:

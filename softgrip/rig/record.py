@@ -8,16 +8,16 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats, check_positive
+from softgrip.board.errors import BoardError, ConnectionLostError
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.state_feedback import SPEED_DIGITS
-from softgrip.materials.arrays import Floats, check_positive
-from softgrip.rig.board_errors import BoardError, ConnectionLostError
-from softgrip.rig.connection import Connection
-from softgrip.rig.gripper_loop import CommandSequence, GripperController
-from softgrip.rig.gripper_tests import column
-from softgrip.rig.motor import one_speed
-from softgrip.rig.run_log import RunLog, plain
-from softgrip.rig.sensors import Measurement
+from softgrip.logs.fingers import column
+from softgrip.logs.queued_writer import RunLog, plain
+from softgrip.rig.interface import Connection
+from softgrip.simulator.gripper_loop import CommandSequence, GripperController
+from softgrip.simulator.motor import one_speed
+from softgrip.simulator.sensors import Measurement
 
 RECONNECT_WITHIN = 10.0
 """s: long enough to put a cable back."""

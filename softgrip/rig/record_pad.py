@@ -3,14 +3,14 @@
 from dataclasses import replace
 from pathlib import Path
 
-from softgrip.materials.arrays import check_positive
-from softgrip.rig.driver import Rig
-from softgrip.rig.experiment import Progress, Recording, show_progress
-from softgrip.rig.log_schema import PAD_CHANNELS
-from softgrip.rig.pad_parameters import PadParameters
-from softgrip.rig.protocol import CHANNELS, TELEMETRY_PERIOD
-from softgrip.rig.run_log import RunLog, plain
-from softgrip.rig.telemetry import Telemetry
+from softgrip.arrays import check_positive
+from softgrip.board.driver import Rig
+from softgrip.board.protocol import CHANNELS, TELEMETRY_PERIOD
+from softgrip.board.telemetry import Telemetry
+from softgrip.logs.queued_writer import RunLog, plain
+from softgrip.logs.schema import PAD_CHANNELS
+from softgrip.rig.record import Progress, Recording, show_progress
+from softgrip.simulator.pad_parameters import PadParameters
 
 
 def record_pad(

@@ -8,14 +8,14 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.board.errors import EndOfReplayError
 from softgrip.errors import DataFileError
-from softgrip.rig.board_errors import EndOfReplayError
-from softgrip.rig.connection import Interlock
-from softgrip.rig.gripper_tests import fingers_of
-from softgrip.rig.log_gaps import gaps_of
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.log_schema import LogHeader
-from softgrip.rig.sensors import Measurement
+from softgrip.logs.fingers import fingers_of
+from softgrip.logs.gaps import gaps_of
+from softgrip.logs.reader import read_log
+from softgrip.logs.schema import LogHeader
+from softgrip.rig.interface import Interlock
+from softgrip.simulator.sensors import Measurement
 
 
 class ReplayConnection:

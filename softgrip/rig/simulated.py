@@ -6,16 +6,16 @@ from typing import Self
 from numpy.typing import ArrayLike
 
 from softgrip.errors import InvalidInputError
+from softgrip.logs.schema import LogHeader
 from softgrip.provenance import Provenance
-from softgrip.rig.calibration import FULL_PRESSURE, design_1
-from softgrip.rig.calibration_table import FILE
-from softgrip.rig.connection import Interlock
-from softgrip.rig.gripper_calibration_table import FILE as GRIPPER_FILE
-from softgrip.rig.gripper_parameters import printed_gripper
-from softgrip.rig.gripper_rig import GripperRig
-from softgrip.rig.log_schema import LogHeader
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.sensors import Measurement, by_finger
+from softgrip.rig.interface import Interlock
+from softgrip.simulator.calibration import FULL_PRESSURE, design_1
+from softgrip.simulator.calibration_table import FILE
+from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.gripper import GripperRig
+from softgrip.simulator.gripper_calibration_table import FILE as GRIPPER_FILE
+from softgrip.simulator.gripper_parameters import printed_gripper
+from softgrip.simulator.sensors import Measurement, by_finger
 
 
 def simulated_finger(*, seed: int = 0) -> "SimulatedConnection":
@@ -110,7 +110,7 @@ class SimulatedConnection:
         pump = self.rig.parameters.pump
         return LogHeader(
             provenance=Provenance.SIMULATED,
-            source="softgrip.rig.simulated_connection",
+            source="softgrip.rig.simulated",
             back_end="simulated rig",
             period=self.period,
             calibration=self._calibration,

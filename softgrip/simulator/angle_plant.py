@@ -2,8 +2,8 @@
 
 from numpy.typing import ArrayLike
 
-from softgrip.materials.arrays import Floats
-from softgrip.rig.plant import SimulatedRig
+from softgrip.arrays import Floats
+from softgrip.simulator.finger import SimulatedRig
 
 
 class AnglePlant:

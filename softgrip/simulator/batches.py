@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.dynamics.chunks import chunks
-from softgrip.rig.parameters import RigParameters
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.sensors import Measurement
-from softgrip.rig.truth import Truth
+from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.parameters import RigParameters
+from softgrip.simulator.sensors import Measurement
+from softgrip.simulator.truth import Truth
 
 NUMBERS_PER_SAMPLE = 25
 """Kept of one run at one sample by `SimulatedRig.open_loop`, with its intermediate results."""

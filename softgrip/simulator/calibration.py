@@ -1,7 +1,7 @@
 """The parameters of the simulated rig that follow from a few printed measurements.
 
-`softgrip.rig.calibration_table` lists them with what is assumed, and says how far off the rig is.
-The three fingers bear Chapter 3's names. Chapter 5 calls the third one, of FX-Pro, Design 2.
+`softgrip.simulator.calibration_table` lists them with what is assumed, and says how far off the rig
+is. The three fingers bear Chapter 3's names. Chapter 5 calls the third one, of FX-Pro, Design 2.
 """
 
 from dataclasses import dataclass, replace
@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from softgrip.rig.parameters import FingerParameters, RigParameters, Spread
+from softgrip.simulator.parameters import FingerParameters, RigParameters, Spread
 from softgrip.units import DEG, MM, MPa
 
 FULL_ANGLE, FULL_PRESSURE = 206 * DEG, 0.15 * MPa  # Design 1 in Figure 3.10

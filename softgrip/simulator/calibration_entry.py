@@ -5,14 +5,14 @@ from typing import Literal
 
 import numpy as np
 
-from softgrip.rig.calibration import (
+from softgrip.simulator.calibration import (
     FULL_PRESSURE,
     OPERATING_ANGLE,
     SPREAD_ANGLE,
     small_signal_poles,
 )
-from softgrip.rig.laws import settled_torque
-from softgrip.rig.parameters import FingerParameters, RigParameters
+from softgrip.simulator.laws import settled_torque
+from softgrip.simulator.parameters import FingerParameters, RigParameters
 from softgrip.units import DEG
 
 

@@ -1,8 +1,8 @@
 """What the simulated rig is tuned to, and how far off the printed measurements it is.
 
-``python -m softgrip.rig.calibration_table`` writes ``data/calibration/simulated_rig.csv``: each
-measurement used, the parameter that it set, what the rig then gives; what is assumed; and what is
-printed but was not used. A quantity that the rig was calibrated to is never one that it found.
+``python -m softgrip.simulator.calibration_table`` writes ``data/calibration/simulated_rig.csv``:
+each measurement used, the parameter that it set, what the rig then gives; what is assumed; and what
+is printed but was not used. A quantity that the rig was calibrated to is never one that it found.
 Lines that name no other finger are those of Design 1.
 """
 
@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from softgrip.provenance import data_file, data_folder
-from softgrip.rig.calibration import (
+from softgrip.simulator.calibration import (
     FULL_ANGLE,
     FULL_PRESSURE,
     OPERATING_ANGLE,
@@ -23,7 +23,7 @@ from softgrip.rig.calibration import (
     design_3,
     small_signal_poles,
 )
-from softgrip.rig.calibration_entry import (
+from softgrip.simulator.calibration_entry import (
     Entry,
     assumed,
     damping_ratio,
@@ -32,12 +32,12 @@ from softgrip.rig.calibration_entry import (
     settled_angle,
     swing,
 )
-from softgrip.rig.capacity_check import constant_capacity_error, modified_capacity_error
-from softgrip.rig.laws import finger_volume, leak
+from softgrip.simulator.capacity_check import constant_capacity_error, modified_capacity_error
+from softgrip.simulator.laws import finger_volume, leak
 from softgrip.units import DEG, ML, MPa
 
 FILE = "calibration/simulated_rig.csv"
-COMMAND = "python -m softgrip.rig.calibration_table"
+COMMAND = "python -m softgrip.simulator.calibration_table"
 
 
 def entries() -> tuple[Entry, ...]:

@@ -11,9 +11,9 @@ is more than all the air that there was. `least_air_swept` says this in a number
 import numpy as np
 from scipy.optimize import least_squares
 
-from softgrip.materials.arrays import Floats
-from softgrip.rig.calibration import design_1
-from softgrip.rig.plant import SimulatedRig
+from softgrip.arrays import Floats
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.finger import SimulatedRig
 from softgrip.units import REV, MPa
 
 LOW, HIGH = 0.05 * MPa, 0.10 * MPa

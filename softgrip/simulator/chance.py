@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from softgrip.materials.arrays import Floats
-from softgrip.rig.parameters import Spread
+from softgrip.arrays import Floats
+from softgrip.simulator.parameters import Spread
 
 SEED = 2024
 """Of all simulated data that are kept, and of the studies on them."""

@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT, Controller, LoopResult, run_loop
-from softgrip.materials.arrays import Floats
-from softgrip.rig.angle_plant import AnglePlant
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.sensors import Measurement
+from softgrip.simulator.angle_plant import AnglePlant
+from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.sensors import Measurement
 
 
 @dataclass(frozen=True)

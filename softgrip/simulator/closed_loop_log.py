@@ -10,17 +10,17 @@ from pathlib import Path
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.control.loop import Controller
 from softgrip.control.pid import PERIOD
-from softgrip.materials.arrays import Floats
+from softgrip.logs.schema import LogHeader
+from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance
-from softgrip.rig.calibration import design_1
-from softgrip.rig.calibration_table import FILE
-from softgrip.rig.chance import SEED
-from softgrip.rig.closed_loop import run_on_rig
-from softgrip.rig.log_schema import LogHeader
-from softgrip.rig.logs import LogWriter
-from softgrip.rig.plant import SimulatedRig
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.calibration_table import FILE
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.closed_loop import run_on_rig
+from softgrip.simulator.finger import SimulatedRig
 from softgrip.units import DEG
 
 STEP = 60 * DEG

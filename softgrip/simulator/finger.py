@@ -5,15 +5,23 @@ from math import ceil
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.dynamics.integrate import RungeKutta
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
-from softgrip.rig import motor
-from softgrip.rig.chance import CHANNELS, Chance
-from softgrip.rig.laws import AMOUNT, ANGLE, MEMORY, RATE, SENSED_ANGLE, SENSED_PRESSURE, Plant
-from softgrip.rig.parameters import RigParameters
-from softgrip.rig.sensors import Measurement, measure
-from softgrip.rig.truth import Truth, truth_of
+from softgrip.simulator import motor
+from softgrip.simulator.chance import CHANNELS, Chance
+from softgrip.simulator.laws import (
+    AMOUNT,
+    ANGLE,
+    MEMORY,
+    RATE,
+    SENSED_ANGLE,
+    SENSED_PRESSURE,
+    Plant,
+)
+from softgrip.simulator.parameters import RigParameters
+from softgrip.simulator.sensors import Measurement, measure
+from softgrip.simulator.truth import Truth, truth_of
 
 LARGEST_STEP = 0.025
 """Of the integration, s. Under abrupt commands, against a step 16 times shorter, the error is below
@@ -45,7 +53,7 @@ class SimulatedRig:
 
     Examples
     --------
-    >>> from softgrip.rig.calibration import design_1
+    >>> from softgrip.simulator.calibration import design_1
     >>> rig = SimulatedRig(design_1(), runs=2)
     >>> rig.advance(5.0, 1.0).angle.shape
     (2,)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
-from softgrip.materials.arrays import Floats
+from softgrip.arrays import Floats
 
 Counts = NDArray[np.int64]
 

@@ -6,13 +6,14 @@ from math import ceil
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.dynamics.integrate import RungeKutta
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.internal_model import PERIOD
-from softgrip.materials.arrays import Floats
-from softgrip.rig import motor
-from softgrip.rig.chance import streams
-from softgrip.rig.gripper_laws import (
+from softgrip.simulator import motor
+from softgrip.simulator.chance import streams
+from softgrip.simulator.finger import LARGEST_STEP
+from softgrip.simulator.gripper_laws import (
     AMOUNT,
     ANGLE,
     RATE,
@@ -21,9 +22,8 @@ from softgrip.rig.gripper_laws import (
     Contact,
     GripperPlant,
 )
-from softgrip.rig.parameters import GripperParameters
-from softgrip.rig.plant import LARGEST_STEP
-from softgrip.rig.sensors import Measurement, from_counts, to_counts
+from softgrip.simulator.parameters import GripperParameters
+from softgrip.simulator.sensors import Measurement, from_counts, to_counts
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class GripperRig:
 
     Examples
     --------
-    >>> from softgrip.rig.gripper_parameters import printed_gripper
+    >>> from softgrip.simulator.gripper_parameters import printed_gripper
     >>> rig = GripperRig(printed_gripper(), runs=3)
     >>> rig.advance(5.0).angle.shape
     (2, 3)

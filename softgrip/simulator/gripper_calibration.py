@@ -1,6 +1,6 @@
 """Inertia and damping of the simulated gripper, from what its step tests must identify.
 
-``python -m softgrip.rig.gripper_calibration`` prints them; they stand, rounded, in
+``python -m softgrip.simulator.gripper_calibration`` prints them; they stand, rounded, in
 `gripper_parameters`. Section 6.4 says that Eq. (6.26) is the mean of models identified from steps
 in open loop. A finger by Ludwick's law has no one frequency: about 45 deg small motions are half as
 fast again as what a step to 45 deg identifies. So the step is simulated and identified.
@@ -11,11 +11,13 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import least_squares
 
+from softgrip.arrays import Floats
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.gripper.plant import FingerDynamics
-from softgrip.materials.arrays import Floats
-from softgrip.rig.gripper_loop import CommandSequence, drive_gripper
-from softgrip.rig.gripper_parameters import (
+from softgrip.logs.fingers import GripperLogs, each_identified
+from softgrip.simulator.gripper import GripperRig
+from softgrip.simulator.gripper_loop import CommandSequence, drive_gripper
+from softgrip.simulator.gripper_parameters import (
     DAMPING,
     INERTIA,
     LEFT,
@@ -25,9 +27,7 @@ from softgrip.rig.gripper_parameters import (
     finger_of,
     printed_gripper,
 )
-from softgrip.rig.gripper_rig import GripperRig
-from softgrip.rig.gripper_tests import GripperLogs, each_identified
-from softgrip.rig.parameters import GripperParameters, PumpParameters
+from softgrip.simulator.parameters import GripperParameters, PumpParameters
 from softgrip.units import REV
 
 OPEN_LOOP_DURATION = 6.0

@@ -1,7 +1,7 @@
 """What the simulated gripper is tuned to, and how far off the printed measurements it is.
 
-``python -m softgrip.rig.gripper_calibration_table`` writes ``data/calibration/gripper.csv``, as
-`calibration_table` does for one finger; what is not named here is as there.
+``python -m softgrip.simulator.gripper_calibration_table`` writes ``data/calibration/gripper.csv``,
+as `calibration_table` does for one finger; what is not named here is as there.
 """
 
 from pathlib import Path
@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from softgrip.gripper.uncertainty import parameter_bounds
-from softgrip.rig.calibration_entry import Entry, assumed, printed
-from softgrip.rig.calibration_table import write_entries
-from softgrip.rig.chance import SEED
-from softgrip.rig.gripper_calibration import step_identifies
-from softgrip.rig.gripper_parameters import (
+from softgrip.simulator.calibration_entry import Entry, assumed, printed
+from softgrip.simulator.calibration_table import write_entries
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.gripper_calibration import step_identifies
+from softgrip.simulator.gripper_parameters import (
     AREA,
     BOUND_RUNS,
     COMMON_PRESSURE,
@@ -28,7 +28,7 @@ from softgrip.rig.gripper_parameters import (
 from softgrip.units import DEG, ML, MM
 
 FILE = "calibration/gripper.csv"
-COMMAND = "python -m softgrip.rig.gripper_calibration_table"
+COMMAND = "python -m softgrip.simulator.gripper_calibration_table"
 
 
 def entries() -> tuple[Entry, ...]:

@@ -1,12 +1,12 @@
-"""The physics of several fingers on one syringe: as `softgrip.rig.laws`, for one volume of gas."""
+"""The physics of several fingers on one syringe: as `simulator.laws`, for one volume of gas."""
 
 from typing import Protocol
 
 import numpy as np
 
-from softgrip.materials.arrays import Floats
-from softgrip.rig.laws import Value, absolute_pressure, leak
-from softgrip.rig.parameters import GripperParameters
+from softgrip.arrays import Floats
+from softgrip.simulator.laws import Value, absolute_pressure, leak
+from softgrip.simulator.parameters import GripperParameters
 
 AMOUNT, SENSED_PRESSURE, FINGERS = range(3)
 """Rows of the state: n R T (J), Pa gauge, then the rows of each finger, then those of a contact."""

@@ -7,11 +7,11 @@ from typing import Protocol, final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT, Controller
 from softgrip.control.state_feedback import SPEED_DIGITS
-from softgrip.materials.arrays import Floats
-from softgrip.rig.gripper_rig import GripperRig, GripperTruth, together, truths_together
-from softgrip.rig.sensors import Measurement
+from softgrip.simulator.gripper import GripperRig, GripperTruth, together, truths_together
+from softgrip.simulator.sensors import Measurement
 
 
 class GripperController(Protocol):

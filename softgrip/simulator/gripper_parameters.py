@@ -17,13 +17,13 @@ from scipy.special import erf
 
 from softgrip.gripper.plant import PRINTED
 from softgrip.gripper.uncertainty import DAMPING_BOUND, STIFFNESS_BOUND
-from softgrip.rig.calibration import (
+from softgrip.simulator.calibration import (
     DESIGN_1,
     FULL_ANGLE,
     FULL_PRESSURE,
     TORQUE_PER_PRESSURE,
 )
-from softgrip.rig.parameters import (
+from softgrip.simulator.parameters import (
     FingerParameters,
     GripperParameters,
     PumpParameters,

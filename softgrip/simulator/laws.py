@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from softgrip.materials.arrays import Floats
-from softgrip.rig.parameters import FingerParameters, RigParameters
+from softgrip.arrays import Floats
+from softgrip.simulator.parameters import FingerParameters, RigParameters
 
 Value = Any
 """A float or an array: a law returns what it was given, and broadcasts."""

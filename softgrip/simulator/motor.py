@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
-from softgrip.rig.parameters import PumpParameters
+from softgrip.simulator.parameters import PumpParameters
 
 
 def speed(start: Floats, command: Floats, elapsed: Floats, pump: PumpParameters) -> Floats:

@@ -6,16 +6,16 @@ from pathlib import Path
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.control.pid import PERIOD
-from softgrip.materials.arrays import Floats
+from softgrip.logs.schema import LogHeader
+from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance
-from softgrip.rig.calibration import design_1
-from softgrip.rig.calibration_table import FILE
-from softgrip.rig.chance import SEED
-from softgrip.rig.log_schema import LogHeader
-from softgrip.rig.logs import LogWriter
-from softgrip.rig.parameters import PumpParameters, RigParameters
-from softgrip.rig.plant import SimulatedRig
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.calibration_table import FILE
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.parameters import PumpParameters, RigParameters
 
 
 @dataclass(frozen=True)

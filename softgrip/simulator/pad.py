@@ -4,13 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softgrip.materials.arrays import Floats
-from softgrip.rig.chance import streams
-from softgrip.rig.pad_contact import bed_points, element_forces, spring_stiffness
-from softgrip.rig.pad_objects import PadObject
-from softgrip.rig.pad_parameters import PadParameters
-from softgrip.rig.pad_surface import Pose, gap
-from softgrip.rig.sensors import Counts
+from softgrip.arrays import Floats
+from softgrip.simulator.chance import streams
+from softgrip.simulator.pad_contact import bed_points, element_forces, spring_stiffness
+from softgrip.simulator.pad_objects import PadObject
+from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.simulator.pad_surface import Pose, gap
+from softgrip.simulator.sensors import Counts
 from softgrip.tactile.element import compliance
 from softgrip.tactile.element_resistance import AT_REST, resistance
 

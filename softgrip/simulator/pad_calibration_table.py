@@ -1,6 +1,6 @@
 """What is assumed of the simulated pad, and how it stands to what Chapter 2 prints.
 
-``python -m softgrip.rig.pad_calibration_table`` writes ``data/calibration/pad.csv``, as
+``python -m softgrip.simulator.pad_calibration_table`` writes ``data/calibration/pad.csv``, as
 `calibration_table` does for the rig with one finger. Nothing printed is calibrated to.
 """
 
@@ -8,15 +8,15 @@ from pathlib import Path
 
 from scipy.optimize import brentq
 
-from softgrip.rig.calibration_entry import Entry, assumed, printed
-from softgrip.rig.calibration_table import write_entries
-from softgrip.rig.pad_parameters import PadParameters
+from softgrip.simulator.calibration_entry import Entry, assumed, printed
+from softgrip.simulator.calibration_table import write_entries
+from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.tactile.element import compliance
 from softgrip.tactile.element_resistance import CEILING, resistance
 from softgrip.units import DEG, MM
 
 FILE = "calibration/pad.csv"
-COMMAND = "python -m softgrip.rig.pad_calibration_table"
+COMMAND = "python -m softgrip.simulator.pad_calibration_table"
 NOISES = 3.0
 """Change of a voltage that is taken as felt, in deviations of its noise."""
 

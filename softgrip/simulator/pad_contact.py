@@ -10,9 +10,9 @@ that joins them.
 import numpy as np
 from scipy.optimize.elementwise import find_root
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
-from softgrip.rig.pad_parameters import PadParameters
+from softgrip.simulator.pad_parameters import PadParameters
 
 SIDE = 5
 """Springs along each side of an element's square."""

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.control.loop import run_loop
 from softgrip.control.pid import PERIOD, Gains
-from softgrip.materials.arrays import Floats
-from softgrip.rig.chance import streams
-from softgrip.rig.force_layer import ForceLayer, layer_voltage, read_counts
-from softgrip.rig.pad_grasp_gripper import GraspGripper, Squeeze, servo_position
+from softgrip.simulator.chance import streams
+from softgrip.simulator.force_layer import ForceLayer, layer_voltage, read_counts
+from softgrip.simulator.pad_gripper import GraspGripper, Squeeze, servo_position
 from softgrip.tactile.force_control import Command, ForceController
 
 

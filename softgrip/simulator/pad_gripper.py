@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
-from softgrip.rig.pad_contact import bed_points, force_at_depth, spring_stiffness
-from softgrip.rig.pad_objects import PadObject
-from softgrip.rig.pad_rig import Pad
-from softgrip.rig.pad_surface import Pose, gap
+from softgrip.simulator.pad import Pad
+from softgrip.simulator.pad_contact import bed_points, force_at_depth, spring_stiffness
+from softgrip.simulator.pad_objects import PadObject
+from softgrip.simulator.pad_surface import Pose, gap
 from softgrip.tactile.element import STATED_MODULUS
 from softgrip.tactile.pad_layout import PAD_SIZE
 from softgrip.units import MM

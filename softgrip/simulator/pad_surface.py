@@ -5,8 +5,8 @@ from math import log
 
 import numpy as np
 
-from softgrip.materials.arrays import Floats
-from softgrip.rig.pad_objects import PadObject
+from softgrip.arrays import Floats
+from softgrip.simulator.pad_objects import PadObject
 from softgrip.units import MM
 
 WAVES = 12

@@ -84,7 +84,7 @@ class GasParameters:
 
 @dataclass(frozen=True)
 class FingerParameters:
-    """The finger. `softgrip.rig.calibration` gives those of Design 1.
+    """The finger. `softgrip.simulator.calibration` gives those of Design 1.
 
     Attributes
     ----------

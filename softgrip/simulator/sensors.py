@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from softgrip.materials.arrays import Floats
-from softgrip.rig.parameters import SensorParameters
+from softgrip.arrays import Floats
+from softgrip.simulator.parameters import SensorParameters
 
 Counts = NDArray[np.int64]
 

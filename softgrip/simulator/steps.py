@@ -6,11 +6,11 @@ from math import ceil
 import numpy as np
 from scipy.optimize import brentq
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.control.pid import PERIOD
-from softgrip.materials.arrays import Floats, check_positive
-from softgrip.rig.parameters import PumpParameters, RigParameters, Spread
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.repeated_steps import StepTest
+from softgrip.logs.repeated_steps import StepTest
+from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.parameters import PumpParameters, RigParameters, Spread
 
 DURATION = 6.0
 """Of a test, s (assumed)."""

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from softgrip.materials.arrays import Floats
-from softgrip.rig import laws
-from softgrip.rig.parameters import RigParameters
+from softgrip.arrays import Floats
+from softgrip.simulator import laws
+from softgrip.simulator.parameters import RigParameters
 
 
 @dataclass(frozen=True)

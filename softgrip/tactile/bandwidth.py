@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 from softgrip.tactile.kernel_average import KERNELS, blocks, scaled_squares
 
 STEPS = 61

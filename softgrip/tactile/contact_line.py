@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.materials.arrays import Floats
+from softgrip.arrays import Floats
 from softgrip.tactile.contact_place import moments
 from softgrip.tactile.pad_layout import PadLayout
 

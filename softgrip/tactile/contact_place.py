@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from softgrip.materials.arrays import Floats
+from softgrip.arrays import Floats
 from softgrip.tactile.contacts import check_responses
 from softgrip.tactile.pad_layout import PadLayout
 

@@ -6,8 +6,8 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from softgrip.arrays import Floats, read_only
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, read_only
 
 ELEMENTS = 8
 """Elements of the pad (Section 2.2)."""

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.stats import linregress
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 
 DRIFT_WEIGHTS = (5.0, 20.0, 50.0, 70.0)
 """The weights of Section 2.3 for it, gram-force."""

@@ -11,8 +11,8 @@ from math import acosh, inf, isfinite, sqrt
 import numpy as np
 from scipy.integrate import quad
 
+from softgrip.arrays import Value, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Value, check_positive
 from softgrip.tactile.element_shape import SHAPES, Element, Shape, cross_section, cut_sphere
 from softgrip.units import MPa
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 from softgrip.tactile.element import STATED_MODULUS, Shape
 from softgrip.tactile.element_results import read
 

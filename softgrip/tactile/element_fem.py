@@ -23,7 +23,7 @@ from skfem import (
 )
 
 from softgrip.actuator.elasticity import Elastic, Solver
-from softgrip.materials.arrays import Floats
+from softgrip.arrays import Floats
 from softgrip.tactile.element import STATED_MODULUS, Element
 from softgrip.tactile.element_mesh import body, profile
 

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from skfem import MeshHex, MeshQuad
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 from softgrip.tactile.element import Element, cross_section
 
 

@@ -8,8 +8,8 @@ same length by width, but only the part 1 - e of its thickness. The resistance i
 
 import numpy as np
 
+from softgrip.arrays import Floats, Value, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, Value, check_positive
 from softgrip.units import MM
 
 AT_REST = 1.0e6

@@ -2,8 +2,8 @@
 
 from scipy.optimize import brentq
 
+from softgrip.arrays import Value, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Value, check_positive
 from softgrip.tactile.element import STATED_MODULUS, Element, Shape, compliance, shortening
 from softgrip.tactile.element_resistance import AT_REST, CEILING, resistance
 

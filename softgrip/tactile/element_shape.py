@@ -6,8 +6,8 @@ from typing import Literal, get_args
 
 import numpy as np
 
+from softgrip.arrays import Value, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Value, check_positive
 from softgrip.units import MM
 
 Shape = Literal["cylinder", "hemisphere", "pyramid"]

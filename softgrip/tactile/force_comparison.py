@@ -14,7 +14,7 @@ from sklearn.neural_network import MLPRegressor
 from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import StandardScaler
 
-from softgrip.materials.arrays import Floats
+from softgrip.arrays import Floats
 from softgrip.tactile.nadaraya_watson import NadarayaWatson
 
 FOLDS = 5

@@ -13,9 +13,9 @@ from typing import Literal, final, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import Floats, check_positive
 from softgrip.control.pid import PERIOD, PID, Gains
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, check_positive
 
 Command = Literal["change", "position"]
 FILTER = 0.1

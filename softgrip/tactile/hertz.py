@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from softgrip.arrays import Value, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Value, check_positive
 from softgrip.tactile.element import STATED_MODULUS
 from softgrip.units import MM
 

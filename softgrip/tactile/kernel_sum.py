@@ -15,7 +15,7 @@ from math import exp, factorial, hypot, log, sqrt
 
 import numpy as np
 
-from softgrip.materials.arrays import Floats
+from softgrip.arrays import Floats
 from softgrip.tactile.kernel_average import blocks, exact_average
 
 TERMS, EXPONENT = 10, 0.25

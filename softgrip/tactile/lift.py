@@ -2,8 +2,8 @@
 
 from scipy.stats import norm
 
+from softgrip.arrays import Value, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Value, check_positive
 
 
 def contact_force(lift_force: Value, friction: float) -> Value:

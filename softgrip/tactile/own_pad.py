@@ -18,8 +18,8 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from softgrip.arrays import Floats, read_only
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.materials.arrays import Floats, read_only
 
 Labels = NDArray[np.str_] | Floats
 

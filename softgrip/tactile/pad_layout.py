@@ -4,8 +4,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from softgrip.arrays import Floats, read_only
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats, read_only
 from softgrip.units import MM
 
 PAD_SIZE = (40 * MM, 38 * MM)

@@ -13,8 +13,8 @@ from sklearn.neighbors import KDTree
 from sklearn.pipeline import Pipeline
 from sklearn.utils.validation import check_is_fitted
 
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.materials.arrays import Floats
 
 CLOSE = 1e-12
 """Relative difference of squared distances that is a tie: some processors round otherwise."""

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.errors import DataFileError, SoftgripError
-from softgrip.materials.arrays import Floats
 from softgrip.tactile.own_pad import PadReadings
 from softgrip.tactile.pad_model import PadModel
 from softgrip.tactile.pad_model_settings import ForceSettings, KindSettings, Settings

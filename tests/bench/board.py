@@ -4,12 +4,12 @@ from math import ceil
 
 import numpy as np
 
-from softgrip.rig.protocol import ESTOP, HEARTBEAT, SETPOINT, TELEMETRY_PERIOD, Flag
+from softgrip.board.emulated.board import EmulatedBoard
+from softgrip.board.emulated.build import missing, sizes
+from softgrip.board.emulated.library import built
+from softgrip.board.protocol import ESTOP, HEARTBEAT, SETPOINT, TELEMETRY_PERIOD, Flag
 from tests.bench.entry import Entry
-from tests.emulator.board import EmulatedBoard
-from tests.emulator.build import missing, sizes
-from tests.emulator.host import Host, pushing_host
-from tests.emulator.library import built
+from tests.board.host import Host, pushing_host
 
 FLASH, RAM = 256 * 1024 - 8192, 8192
 """Bytes of an ATmega2560, its boot loader's part taken off."""

@@ -3,9 +3,9 @@
 import csv
 from pathlib import Path
 
-from softgrip.figures.rig_emulated import COLUMNS, FILE
+from book.live.emulated import COLUMNS, FILE
+from softgrip.board.firmware.header import build
 from softgrip.provenance import data_folder
-from softgrip.rig.firmware.header import build
 from tests.bench.board import entries
 
 COMMAND = "python -m tests.bench.emulated_board"

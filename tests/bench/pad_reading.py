@@ -5,8 +5,8 @@ from time import perf_counter_ns, thread_time_ns
 
 import numpy as np
 
+from softgrip.logs.contacts import read_contacts
 from softgrip.provenance import data_file
-from softgrip.rig.contacts_log import read_contacts
 from softgrip.tactile.contact_kind import bagged_neighbours
 from softgrip.tactile.contact_place import place
 from softgrip.tactile.nadaraya_watson import NadarayaWatson

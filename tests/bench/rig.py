@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from softgrip.rig.batches import in_parts
-from softgrip.rig.calibration import design_1
-from softgrip.rig.plant import SimulatedRig
+from softgrip.simulator.batches import in_parts
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.finger import SimulatedRig
 from tests.bench.entry import Entry, interleaved, spread
 
 PERIOD = 0.025

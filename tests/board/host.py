@@ -1,7 +1,8 @@
 """A host that says what it is told to, right or wrong; for tests of the firmware alone."""
 
-from softgrip.rig.framing import Frame, FrameReader, encode
-from softgrip.rig.protocol import (
+from softgrip.board.emulated.board import PRESSURE, EmulatedBoard
+from softgrip.board.framing import Frame, FrameReader, encode
+from softgrip.board.protocol import (
     BY_ID,
     HEARTBEAT,
     HELLO,
@@ -16,7 +17,6 @@ from softgrip.rig.protocol import (
     Message,
     Reason,
 )
-from tests.emulator.board import PRESSURE, EmulatedBoard
 
 BEAT = 0.05
 """s between heartbeats."""

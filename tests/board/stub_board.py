@@ -4,11 +4,9 @@ It is no firmware: what the firmware does is tested on the emulated board. Its c
 unless it is read, and the simulated rig is what it drives.
 """
 
-from softgrip.rig.board_errors import ConnectionLostError
-from softgrip.rig.calibration import design_1
-from softgrip.rig.framing import Frame, FrameReader, encode
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.protocol import (
+from softgrip.board.errors import ConnectionLostError
+from softgrip.board.framing import Frame, FrameReader, encode
+from softgrip.board.protocol import (
     ACK,
     BY_ID,
     CHANNELS,
@@ -32,6 +30,8 @@ from softgrip.rig.protocol import (
     Reason,
     SetUp,
 )  # fmt: skip
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.finger import SimulatedRig
 from softgrip.units import REV
 
 STEPS = 800

@@ -8,11 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
+from softgrip.board.calibration import BoardCalibration, fit_sensor, load, nominal, save
+from softgrip.board.errors import WrongBoardError
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.rig.board_calibration import BoardCalibration, fit_sensor, load, nominal, save
-from softgrip.rig.board_errors import WrongBoardError
-from softgrip.rig.parameters import SensorParameters
-from softgrip.rig.sensors import from_counts
+from softgrip.simulator.parameters import SensorParameters
+from softgrip.simulator.sensors import from_counts
 from softgrip.units import DEG
 
 COUNTS = np.array([102, 300, 500, 700, 920])

@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from softgrip.errors import InvalidInputError
-from softgrip.rig.board_calibration import nominal
-from softgrip.rig.board_commands import HUNG_AFTER
-from softgrip.rig.board_errors import (
+from softgrip.board.calibration import nominal
+from softgrip.board.commands import HUNG_AFTER
+from softgrip.board.driver import Rig
+from softgrip.board.errors import (
     BoardResetError,
     CommandRefusedError,
     ConnectionLostError,
@@ -19,13 +19,13 @@ from softgrip.rig.board_errors import (
     VersionMismatchError,
     WrongBoardError,
 )
-from softgrip.rig.calibration import design_1
-from softgrip.rig.driver import Rig
-from softgrip.rig.framing import Frame, encode
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.protocol import ACK, HOME, SETPOINT, TABLE, TELEMETRY_PERIOD, Flag
+from softgrip.board.framing import Frame, encode
+from softgrip.board.protocol import ACK, HOME, SETPOINT, TABLE, TELEMETRY_PERIOD, Flag
+from softgrip.errors import InvalidInputError
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.finger import SimulatedRig
 from softgrip.units import PSI, REV
-from tests.rig.stub_board import HARD, LIMITS, StubBoard
+from tests.board.stub_board import HARD, LIMITS, StubBoard
 from tests.rig.test_live import until
 
 

@@ -9,14 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from softgrip.rig.board_errors import ConnectionLostError, PortUnavailableError
-from softgrip.rig.driver import Rig
-from softgrip.rig.experiment import record
-from softgrip.rig.log_reader import read_log
-from tests.emulator.build import needs_emulator
-from tests.emulator.emulated_rig import EmulatedRig
-from tests.emulator.terminal import Terminal
-from tests.rig.test_experiment import a_second_before_the_last
+from softgrip.board.driver import Rig
+from softgrip.board.emulated.emulated_rig import EmulatedRig
+from softgrip.board.emulated.terminal import Terminal
+from softgrip.board.errors import ConnectionLostError, PortUnavailableError
+from softgrip.logs.reader import read_log
+from softgrip.rig.record import record
+from tests.board.emulated import needs_emulator
+from tests.rig.test_record import a_second_before_the_last
 
 pytestmark = needs_emulator
 
@@ -81,8 +81,8 @@ class Listened(EmulatedRig):
 
 DRIVEN = """
 import sys
-from softgrip.rig.driver import Rig
-from softgrip.rig.experiment import record
+from softgrip.board.driver import Rig
+from softgrip.rig.record import record
 
 def say(done, duration):
     print(done, flush=True)
@@ -126,8 +126,8 @@ def test_a_killed_host_stops_the_board_and_leaves_a_log_that_lacks_a_second_at_m
 
 FULL_DISK = """
 import resource, sys
-from softgrip.rig.experiment import record
-from tests.emulator.emulated_rig import open_rig
+from softgrip.rig.record import record
+from softgrip.board.emulated.emulated_rig import open_rig
 
 with open_rig() as rig:
     rig.home()

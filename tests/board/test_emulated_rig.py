@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from softgrip.rig.driver import Rig
-from softgrip.rig.protocol import CHANNELS, SETPOINT
+from softgrip.board.driver import Rig
+from softgrip.board.emulated.board import EmulatedBoard
+from softgrip.board.emulated.emulated_rig import STEPS, EmulatedRig, finger, gripper, open_rig
+from softgrip.board.emulated.terminal import Terminal
+from softgrip.board.protocol import CHANNELS, SETPOINT
 from softgrip.units import REV
-from tests.emulator.board import EmulatedBoard
-from tests.emulator.build import needs_emulator
-from tests.emulator.emulated_rig import STEPS, EmulatedRig, finger, gripper, open_rig
-from tests.emulator.host import Host
-from tests.emulator.terminal import Terminal
+from tests.board.emulated import needs_emulator
+from tests.board.host import Host
 
 pytestmark = needs_emulator
 

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from softgrip.figures.rig_emulated import EMULATED_BITS
-from softgrip.rig.firmware.header import build
-from softgrip.rig.framing import Frame, encode
-from softgrip.rig.protocol import (
+from book.live.emulated import EMULATED_BITS
+from softgrip.board.emulated.board import CLOCK, EmulatedBoard
+from softgrip.board.firmware.header import build
+from softgrip.board.framing import Frame, encode
+from softgrip.board.protocol import (
     BAUD,
     CHANNELS,
     CLEAR,
@@ -28,9 +29,8 @@ from softgrip.rig.protocol import (
     ResetCause,
     SetUp,
 )  # fmt: skip
-from tests.emulator.board import CLOCK, EmulatedBoard
-from tests.emulator.build import needs_emulator
-from tests.emulator.host import Host
+from tests.board.emulated import needs_emulator
+from tests.board.host import Host
 
 pytestmark = needs_emulator
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from softgrip.rig.protocol import HOME, SET_LIMITS, SETPOINT, SPEED_SCALE, Flag, Reason
-from tests.emulator.board import EmulatedBoard, Switch
-from tests.emulator.build import needs_emulator
-from tests.emulator.host import Host
+from softgrip.board.emulated.board import EmulatedBoard, Switch
+from softgrip.board.protocol import HOME, SET_LIMITS, SETPOINT, SPEED_SCALE, Flag, Reason
+from tests.board.emulated import needs_emulator
+from tests.board.host import Host
 
 pytestmark = needs_emulator
 

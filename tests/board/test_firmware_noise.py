@@ -8,11 +8,11 @@ import random
 
 import pytest
 
-from softgrip.rig.framing import Frame, FrameReader, encode
-from softgrip.rig.protocol import COUNTERS, ESTOP, HEARTBEAT, HELLO, SETPOINT, Flag
-from tests.emulator.board import EmulatedBoard
-from tests.emulator.build import needs_emulator
-from tests.emulator.host import Host
+from softgrip.board.emulated.board import EmulatedBoard
+from softgrip.board.framing import Frame, FrameReader, encode
+from softgrip.board.protocol import COUNTERS, ESTOP, HEARTBEAT, HELLO, SETPOINT, Flag
+from tests.board.emulated import needs_emulator
+from tests.board.host import Host
 
 pytestmark = needs_emulator
 

@@ -2,10 +2,10 @@
 
 import pytest
 
-from softgrip.rig.protocol import CLEAR, SETPOINT, SPEED_SCALE, Flag, Reason
-from tests.emulator.board import PRESSURE
-from tests.emulator.build import needs_emulator
-from tests.emulator.host import pushing_host
+from softgrip.board.emulated.board import PRESSURE
+from softgrip.board.protocol import CLEAR, SETPOINT, SPEED_SCALE, Flag, Reason
+from tests.board.emulated import needs_emulator
+from tests.board.host import pushing_host
 
 pytestmark = needs_emulator
 

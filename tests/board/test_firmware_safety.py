@@ -5,7 +5,8 @@ import random
 import numpy as np
 import pytest
 
-from softgrip.rig.protocol import (
+from softgrip.board.emulated.board import PRESSURE, EmulatedBoard, Switch
+from softgrip.board.protocol import (
     CLEAR,
     COUNTERS,
     ESTOP,
@@ -18,9 +19,8 @@ from softgrip.rig.protocol import (
     Reason,
     ResetCause,
 )
-from tests.emulator.board import PRESSURE, EmulatedBoard, Switch
-from tests.emulator.build import needs_emulator
-from tests.emulator.host import Host, pushing_host
+from tests.board.emulated import needs_emulator
+from tests.board.host import Host, pushing_host
 
 pytestmark = needs_emulator
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from softgrip.rig.framing import LARGEST, Frame, FrameReader, checksum, decode, encode
+from softgrip.board.framing import LARGEST, Frame, FrameReader, checksum, decode, encode
 
 bytes_of_frame = st.binary(max_size=LARGEST - 4)
 frames = st.builds(Frame, st.integers(0, 255), st.integers(0, 255), bytes_of_frame)

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
+from softgrip.board.errors import ConnectionLostError, PortBusyError, PortUnavailableError
+from softgrip.board.framing import Frame, FrameReader, encode
+from softgrip.board.link import SerialLink
 from softgrip.errors import InvalidInputError
-from softgrip.rig.board_errors import ConnectionLostError, PortBusyError, PortUnavailableError
-from softgrip.rig.framing import Frame, FrameReader, encode
-from softgrip.rig.link import SerialLink
 
 
 @pytest.fixture
@@ -82,7 +82,7 @@ def test_a_program_that_asks_for_no_lock_is_refused_as_long_as_the_port_is_open(
 @pytest.mark.skipif(not Path("/proc/self/fd").is_dir(), reason="needs /proc, as of Linux")
 def test_a_program_that_has_the_port_without_a_lock_is_found_and_named(terminal):
     has_it = ["sh", "-c", 'exec 3<>"$0"; echo; read end', terminal[1]]
-    wants_it = "import sys; from softgrip.rig.link import SerialLink; SerialLink(sys.argv[1])"
+    wants_it = "import sys; from softgrip.board.link import SerialLink; SerialLink(sys.argv[1])"
     with subprocess.Popen(has_it, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as other:
         other.stdout.readline()
         found = subprocess.run(
@@ -95,8 +95,8 @@ def test_a_program_that_has_the_port_without_a_lock_is_found_and_named(terminal)
 
 FORKED = """
 import os, sys
-from softgrip.rig.board_errors import PortUnavailableError
-from softgrip.rig.link import SerialLink
+from softgrip.board.errors import PortUnavailableError
+from softgrip.board.link import SerialLink
 
 link = SerialLink(sys.argv[1])
 if not (child := os.fork()):

@@ -4,10 +4,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from softgrip.board import protocol
+from softgrip.board.firmware import header
+from softgrip.board.protocol import BAUD, CHANNELS, MESSAGES, SETPOINT, TELEMETRY, TELEMETRY_PERIOD
 from softgrip.errors import InvalidInputError
-from softgrip.rig import protocol
-from softgrip.rig.firmware import header
-from softgrip.rig.protocol import BAUD, CHANNELS, MESSAGES, SETPOINT, TELEMETRY, TELEMETRY_PERIOD
 
 BITS = {"B": (0, 8), "H": (0, 16), "I": (0, 32), "i": (-(2**31), 31)}
 
@@ -61,7 +61,7 @@ def test_a_table_that_changes_is_another_version():
 
 
 def test_the_header_is_up_to_date():
-    # Else run: python -m softgrip.rig.firmware.header
+    # Else run: python -m softgrip.board.firmware.header
     assert header.HEADER.read_text() == header.header()
 
 

@@ -3,24 +3,24 @@
 import numpy as np
 import pytest
 
+from book.chapter_3.regulators import regulator
+from book.chapter_4.controllers import controller
+from book.chapter_6.controllers import gripper_controller, own_model, target_angles
+from softgrip.board.commands import HUNG_AFTER
+from softgrip.board.driver import Rig
+from softgrip.board.errors import CommandRefusedError
 from softgrip.control.loop import SPEED_LIMIT, run_loop
 from softgrip.gripper.internal_model import PERIOD
-from softgrip.rig.board_commands import HUNG_AFTER
-from softgrip.rig.board_errors import CommandRefusedError
+from softgrip.logs.fingers import fingers_of
+from softgrip.logs.reader import read_log
 from softgrip.rig.check import run_check
-from softgrip.rig.closed_loop_logs import STEP
-from softgrip.rig.connection import ConnectionPlant
-from softgrip.rig.driver import Rig
-from softgrip.rig.experiment import record
-from softgrip.rig.gripper_control import gripper_controller, own_model, target_angles
-from softgrip.rig.gripper_loop import OnTheMean
-from softgrip.rig.gripper_parameters import printed_gripper
-from softgrip.rig.gripper_tests import fingers_of
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.lqr_gains import regulator
-from softgrip.rig.pid_controllers import controller
+from softgrip.rig.interface import ConnectionPlant
+from softgrip.rig.record import record
+from softgrip.simulator.closed_loop_log import STEP
+from softgrip.simulator.gripper_loop import OnTheMean
+from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.units import DEG
-from tests.emulator.build import needs_emulator
+from tests.board.emulated import needs_emulator
 
 pytestmark = needs_emulator
 
@@ -29,13 +29,13 @@ END_NOISE = 2 * DEG / np.sqrt(40) * 4
 
 
 def finger_rig():
-    from tests.emulator.emulated_rig import open_rig
+    from softgrip.board.emulated.emulated_rig import open_rig
 
     return open_rig()
 
 
 def gripper_rig():
-    from tests.emulator.emulated_rig import EmulatedRig, gripper
+    from softgrip.board.emulated.emulated_rig import EmulatedRig, gripper
 
     return Rig(EmulatedRig(gripper()), fingers=2, period=PERIOD, pump=printed_gripper().pump)
 

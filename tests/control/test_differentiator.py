@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from softgrip.control.differentiator import PolynomialDifferentiator, RobustDifferentiator
 from softgrip.control.lqr import FINGER, Weights, closed_loop
 from softgrip.errors import InvalidInputError
-from softgrip.rig.parameters import SensorParameters
-from softgrip.rig.sensors import from_counts, to_counts
+from softgrip.simulator.parameters import SensorParameters
+from softgrip.simulator.sensors import from_counts, to_counts
 from softgrip.units import DEG
 
 TIME = np.arange(0, 10, 0.025)

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
+from book.chapter_6 import finger_count
+from book.chapter_6.finger_count import count_point, spread_gripper
 from softgrip.control.minimum_time import minimum_settling_time
 from softgrip.errors import InvalidInputError
-from softgrip.gripper import finger_count
-from softgrip.gripper.finger_count import count_point, spread_gripper
 from softgrip.gripper.gripper_batch import GripperBatch, can_rest, draw_grippers
 from softgrip.gripper.monte_carlo import simulate
 from softgrip.gripper.optimal_feedforward import optimal_feedforward, trade_off

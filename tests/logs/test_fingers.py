@@ -5,29 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from softgrip.dynamics.sampled_response import response
-from softgrip.dynamics.second_order import SecondOrder
-from softgrip.errors import DataFileError
-from softgrip.gripper.plant import FingerDynamics
-from softgrip.gripper.synchronization import synchronization_error
-from softgrip.provenance import data_file, data_folder
-from softgrip.rig import gripper_calibration_table, gripper_speed
-from softgrip.rig.calibration_table import read
-from softgrip.rig.gripper_calibration import step_identifies
-from softgrip.rig.gripper_comparison import CRITERIA, judged
-from softgrip.rig.gripper_control import best_command, own_model, printed_model, target_angles
-from softgrip.rig.gripper_grasp import STEP, grasp
-from softgrip.rig.gripper_logs import LOGS, names_of
-from softgrip.rig.gripper_loop import CommandSequence, Held
-from softgrip.rig.gripper_parameters import (
-    LEFT,
-    OPEN_LOOP_ANGLES,
-    RIGHT,
-    TRAVEL,
-    largest_of,
-    printed_gripper,
-)
-from softgrip.rig.gripper_results import (
+from book.chapter_6 import speed as gripper_speed
+from book.chapter_6.comparison import CRITERIA, judged
+from book.chapter_6.controllers import best_command, own_model, printed_model, target_angles
+from book.chapter_6.grasps import STEP, grasp
+from book.chapter_6.logs import LOGS, names_of
+from book.chapter_6.results import (
     bounds,
     identified,
     identified_without_noise,
@@ -36,14 +19,32 @@ from softgrip.rig.gripper_results import (
     push_response,
     recovery,
 )
-from softgrip.rig.gripper_tests import (
+from book.companion.simulated_logs import make
+from softgrip.dynamics.sampled_response import response
+from softgrip.dynamics.second_order import SecondOrder
+from softgrip.errors import DataFileError
+from softgrip.gripper.plant import FingerDynamics
+from softgrip.gripper.synchronization import synchronization_error
+from softgrip.logs.fingers import (
     GripperLogs,
     identified_gripper,
     read_runs,
     run_deviation,
 )
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.simulated_logs import make
+from softgrip.logs.reader import read_log
+from softgrip.provenance import data_file, data_folder
+from softgrip.simulator import gripper_calibration_table
+from softgrip.simulator.calibration_table import read
+from softgrip.simulator.gripper_calibration import step_identifies
+from softgrip.simulator.gripper_loop import CommandSequence, Held
+from softgrip.simulator.gripper_parameters import (
+    LEFT,
+    OPEN_LOOP_ANGLES,
+    RIGHT,
+    TRAVEL,
+    largest_of,
+    printed_gripper,
+)
 from softgrip.units import DEG, REV
 
 

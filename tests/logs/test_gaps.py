@@ -5,23 +5,23 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from book.chapter_2.force_drift import hour_errors
+from book.chapter_4.identified_model import identify_capacity, identify_finger
+from book.companion.show import show
+from book.live.acceptance import bands_table
+from book.live.chapter_figure import chapter_figure
+from softgrip.board.driver import Rig
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.figures.rig_acceptance import bands_table
-from softgrip.figures.rig_chapter import chapter_figure
-from softgrip.figures.show import show
+from softgrip.logs.fingers import read_runs
+from softgrip.logs.pushes import compare
+from softgrip.logs.reader import read_log
+from softgrip.logs.repeated_steps import read_step_test
+from softgrip.logs.staircase import mean_edge, staircase_figures
+from softgrip.logs.steps import step_figures, step_log_figures
 from softgrip.provenance import data_folder
 from softgrip.rig.__main__ import main
-from softgrip.rig.driver import Rig
-from softgrip.rig.experiment import record
-from softgrip.rig.force_layer_drift import hour_errors
-from softgrip.rig.gripper_tests import read_runs
-from softgrip.rig.identified_model import identify_capacity, identify_finger
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.pressure_models import compare
-from softgrip.rig.repeated_steps import read_step_test
+from softgrip.rig.record import record
 from softgrip.rig.replay import ReplayConnection
-from softgrip.rig.staircase_log import mean_edge, staircase_figures
-from softgrip.rig.step_log import step_figures, step_log_figures
 from softgrip.tactile.drift import DRIFT_WEIGHTS
 from softgrip.units import GRAM_FORCE
 from tests.rig.test_check import checked

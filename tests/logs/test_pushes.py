@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from softgrip.errors import DataFileError
+from softgrip.logs.pump import pump_of
+from softgrip.logs.pushes import compare, measure_noise, reference_noise
+from softgrip.logs.reader import read_log
 from softgrip.provenance import data_folder
 from softgrip.pump.flow import parameter_set
-from softgrip.rig.log_pump import pump_of
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.pressure_models import compare, measure_noise, reference_noise
 
 PUSHES = {"push-a": "default", "push-b": "larger area", "push-c": "smaller lead",
           "push-d": "higher speed"}  # fmt: skip
@@ -28,7 +28,7 @@ def test_kept_noise_levels_are_what_the_record_gives():
 
 
 def test_constant_capacity_stays_below_a_closed_syringe(found):
-    """The sign follows from the gas law (`rig.capacity_check`), the text has the other one."""
+    """The sign follows from the gas law (`capacity_check`), the text has the other one."""
     assert found.error(found.constant) < -0.3
     assert np.all(found.constant[found.measured > 0.1e6] < found.measured[found.measured > 0.1e6])
 

@@ -13,11 +13,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.logs.queued_writer import RunLog, plain
+from softgrip.logs.reader import read_log
+from softgrip.logs.schema import COLUMNS, LogHeader
+from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.log_schema import COLUMNS, LogHeader
-from softgrip.rig.logs import LogWriter
-from softgrip.rig.run_log import RunLog, plain
 from softgrip.units import DEG
 
 HEADER = LogHeader(
@@ -92,9 +92,9 @@ def test_killed_writer_leaves_all_rows_that_it_had_written(tmp_path):
     program = f"""
 import itertools, pathlib, time
 from softgrip.provenance import Provenance
-from softgrip.rig.log_schema import LogHeader
-from softgrip.rig.logs import LogWriter
-from softgrip.rig.run_log import RunLog, plain
+from softgrip.logs.schema import LogHeader
+from softgrip.logs.writer import LogWriter
+from softgrip.logs.queued_writer import RunLog, plain
 log = LogWriter(pathlib.Path({str(path)!r}),
                 LogHeader(Provenance.SIMULATED, "test", "simulated rig", 0.025))
 for k in itertools.count():

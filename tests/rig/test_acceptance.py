@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.logs.fingers import column
+from softgrip.logs.schema import LogHeader
+from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance, data_folder
 from softgrip.rig.__main__ import main
 from softgrip.rig.acceptance import SETTLING, judge, report
-from softgrip.rig.gripper_tests import column
-from softgrip.rig.log_schema import LogHeader
-from softgrip.rig.logs import LogWriter
 from softgrip.units import DEG
 
 FOLDER = data_folder() / "simulated"

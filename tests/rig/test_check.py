@@ -2,13 +2,13 @@
 
 import pytest
 
+from softgrip.board.driver import Rig
+from softgrip.board.protocol import Flag
 from softgrip.provenance import data_folder
 from softgrip.rig.__main__ import main
 from softgrip.rig.check import run_check
-from softgrip.rig.driver import Rig
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.protocol import Flag
-from tests.rig.stub_board import StubBoard
+from softgrip.simulator.finger import SimulatedRig
+from tests.board.stub_board import StubBoard
 
 
 def checked(board, **options):
@@ -88,7 +88,7 @@ def test_latched_faults_are_seen(stub):
 def test_noise_is_seen():
     from dataclasses import replace
 
-    from softgrip.rig.calibration import design_1
+    from softgrip.simulator.calibration import design_1
 
     known = design_1()
     loud = replace(known, sensors=replace(known.sensors, pressure_noise=5e3))

@@ -10,22 +10,22 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import pytest
 
+from softgrip.board.driver import Rig
+from softgrip.board.emulated.build import missing
+from softgrip.board.errors import CommandRefusedError
+from softgrip.board.protocol import Flag
 from softgrip.errors import InvalidInputError
+from softgrip.logs.fingers import column
+from softgrip.logs.reader import read_log
 from softgrip.provenance import Provenance, data_folder
-from softgrip.rig.board_errors import CommandRefusedError
-from softgrip.rig.calibration import design_1
 from softgrip.rig.connect import connect
-from softgrip.rig.driver import Rig
-from softgrip.rig.experiment import record
-from softgrip.rig.gripper_parameters import printed_gripper
-from softgrip.rig.gripper_rig import GripperRig
-from softgrip.rig.gripper_tests import column
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.protocol import Flag
-from softgrip.rig.simulated_connection import SimulatedConnection
-from tests.emulator.build import missing
-from tests.rig.stub_board import StubBoard
+from softgrip.rig.record import record
+from softgrip.rig.simulated import SimulatedConnection
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.gripper import GripperRig
+from softgrip.simulator.gripper_parameters import printed_gripper
+from tests.board.stub_board import StubBoard
 
 PORT = os.environ.get("SOFTGRIP_RIG_PORT", "")
 SPEED = 6.0  # rad/s
@@ -51,7 +51,7 @@ def stub_rig():
 def emulated_rig():
     if missing():
         pytest.skip(f"the emulated board needs: apt install {missing()}")
-    from tests.emulator.emulated_rig import open_rig
+    from softgrip.board.emulated.emulated_rig import open_rig
 
     return open_rig()
 

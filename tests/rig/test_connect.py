@@ -4,13 +4,13 @@ from types import SimpleNamespace
 
 import pytest
 
+from softgrip.board.calibration import nominal, save
+from softgrip.board.driver import Rig
+from softgrip.board.errors import NoBoardError, PortUnavailableError
+from softgrip.board.find import candidates, find_board
 from softgrip.errors import UnknownNameError
-from softgrip.rig.board_calibration import nominal, save
-from softgrip.rig.board_errors import NoBoardError, PortUnavailableError
 from softgrip.rig.connect import connect
-from softgrip.rig.driver import Rig
-from softgrip.rig.find_board import candidates, find_board
-from softgrip.rig.simulated_connection import SimulatedConnection
+from softgrip.rig.simulated import SimulatedConnection
 
 
 def usb(device, vid=0x2341, pid=0x0042):
@@ -58,16 +58,16 @@ def test_no_board_says_what_was_found():
 
 
 def test_of_several_boards_none_is_guessed(monkeypatch):
-    monkeypatch.setattr("softgrip.rig.find_board._greeted", lambda port: ("build 1", True))
+    monkeypatch.setattr("softgrip.board.find._greeted", lambda port: ("build 1", True))
     with pytest.raises(NoBoardError, match="several boards"):
         find_board([usb("a"), usb("b")])
 
 
 def test_without_a_name_the_found_board_is_said(monkeypatch, socket_board, capsys):
     ports = [usb(socket_board.url)]
-    monkeypatch.setattr("softgrip.rig.find_board._greeted", lambda port: ("build 00c0ffee", True))
+    monkeypatch.setattr("softgrip.board.find._greeted", lambda port: ("build 00c0ffee", True))
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: ports)
-    monkeypatch.setattr("softgrip.rig.board_line.usb_serial", lambda port: "7573")
+    monkeypatch.setattr("softgrip.board.line.usb_serial", lambda port: "7573")
     with connect() as rig:
         assert rig.header().board == "7573"
     assert f"found {socket_board.url}" in capsys.readouterr().err

@@ -6,25 +6,25 @@ from threading import Event
 import numpy as np
 import pytest
 
+from book.live.experiments import experiments
+from softgrip.board.driver import Rig
+from softgrip.board.emulated.emulated_rig import EmulatedRig, finger
+from softgrip.board.emulated.terminal import Terminal
+from softgrip.board.errors import CommandRefusedError, ConnectionLostError
+from softgrip.board.protocol import Flag
 from softgrip.control.pid import PID, Gains
 from softgrip.errors import InvalidInputError
+from softgrip.logs.reader import read_log
 from softgrip.provenance import data_folder
-from softgrip.rig.board_errors import CommandRefusedError, ConnectionLostError
-from softgrip.rig.calibration import design_1
-from softgrip.rig.chance import SEED
 from softgrip.rig.connect import connect
-from softgrip.rig.driver import Rig
 from softgrip.rig.live import LiveRun
 from softgrip.rig.live_experiment import MovingReference
-from softgrip.rig.live_experiments import experiments
 from softgrip.rig.live_rig import check_simulated, listens
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.protocol import Flag
-from softgrip.rig.simulated_connection import SimulatedConnection
-from tests.emulator.build import needs_emulator
-from tests.emulator.emulated_rig import EmulatedRig, finger
-from tests.emulator.terminal import Terminal
+from softgrip.rig.simulated import SimulatedConnection
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.finger import SimulatedRig
+from tests.board.emulated import needs_emulator
 
 KEPT = data_folder() / "simulated" / "staircase.csv"
 SOON = 60.0  # s: far more than anything takes on a busy machine, so that a hang is a failure

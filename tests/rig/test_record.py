@@ -10,27 +10,27 @@ from contextlib import suppress
 import numpy as np
 import pytest
 
+from book.chapter_3.regulators import regulator
+from book.chapter_4.controllers import controller
+from book.chapter_6.controllers import gripper_controller, own_model, target_angles
+from softgrip.board.driver import Rig
+from softgrip.board.errors import CommandRefusedError, ConnectionLostError
+from softgrip.board.protocol import Flag
 from softgrip.control.loop import SPEED_LIMIT, run_loop
 from softgrip.errors import InvalidInputError
+from softgrip.logs.reader import read_log
 from softgrip.provenance import data_folder
-from softgrip.rig.board_errors import CommandRefusedError, ConnectionLostError
-from softgrip.rig.calibration import design_1
-from softgrip.rig.chance import SEED
-from softgrip.rig.closed_loop_logs import STEP
 from softgrip.rig.connect import connect
-from softgrip.rig.connection import ConnectionPlant
-from softgrip.rig.driver import Rig
-from softgrip.rig.experiment import record, show_progress
-from softgrip.rig.gripper_control import gripper_controller, own_model, target_angles
-from softgrip.rig.gripper_loop import OnTheMean
-from softgrip.rig.gripper_parameters import printed_gripper
-from softgrip.rig.gripper_rig import GripperRig
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.lqr_gains import regulator
-from softgrip.rig.pid_controllers import controller
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.protocol import Flag
-from softgrip.rig.simulated_connection import SimulatedConnection
+from softgrip.rig.interface import ConnectionPlant
+from softgrip.rig.record import record, show_progress
+from softgrip.rig.simulated import SimulatedConnection
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.closed_loop_log import STEP
+from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.gripper import GripperRig
+from softgrip.simulator.gripper_loop import OnTheMean
+from softgrip.simulator.gripper_parameters import printed_gripper
 
 FOLDER = data_folder() / "simulated"
 
@@ -203,7 +203,7 @@ def test_a_real_line_pulled_and_put_back(socket_board, path):
 KILLED = """
 import sys, time
 from softgrip.rig.connect import connect
-from softgrip.rig.experiment import record
+from softgrip.rig.record import record
 
 class Slow:
     def update(self, measured):
@@ -246,7 +246,7 @@ def test_a_killed_host_leaves_a_log_that_lacks_a_second_at_most(path):
 FULL_DISK = """
 import resource, sys
 from softgrip.rig.connect import connect
-from softgrip.rig.experiment import record
+from softgrip.rig.record import record
 
 resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
 with connect("simulated") as rig:

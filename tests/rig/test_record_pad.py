@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
+from softgrip.board.driver import Rig
+from softgrip.board.emulated.board import EmulatedBoard
+from softgrip.board.emulated.link import EmulatedLink
+from softgrip.board.protocol import SetUp
 from softgrip.errors import InvalidInputError
+from softgrip.logs.reader import read_log
+from softgrip.logs.schema import PAD_CHANNELS
 from softgrip.rig.check import check
-from softgrip.rig.driver import Rig
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.log_schema import PAD_CHANNELS
-from softgrip.rig.pad_record import record_pad
-from softgrip.rig.protocol import SetUp
-from tests.emulator.board import EmulatedBoard
-from tests.emulator.build import needs_emulator
-from tests.emulator.link import EmulatedLink
+from softgrip.rig.record_pad import record_pad
+from tests.board.emulated import needs_emulator
 
 pytestmark = needs_emulator
 

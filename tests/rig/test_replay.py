@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
+from book.chapter_4.controllers import controller
+from softgrip.board.errors import EndOfReplayError
 from softgrip.control.state_feedback import SPEED_DIGITS
 from softgrip.errors import DataFileError
+from softgrip.logs.reader import read_log
 from softgrip.provenance import data_folder
-from softgrip.rig.board_errors import EndOfReplayError
-from softgrip.rig.closed_loop_logs import STEP
 from softgrip.rig.connect import connect
-from softgrip.rig.experiment import record
-from softgrip.rig.gripper_loop import OnTheMean
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.pid_controllers import controller
+from softgrip.rig.record import record
 from softgrip.rig.replay import ReplayConnection
+from softgrip.simulator.closed_loop_log import STEP
+from softgrip.simulator.gripper_loop import OnTheMean
 
 FOLDER = data_folder() / "simulated"
 PATH = FOLDER / "pid-full.csv"

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from softgrip.provenance import Provenance, data_file
-from softgrip.rig import calibration, calibration_table
-from softgrip.rig.calibration import OPERATING_ANGLE, design_1, design_3, small_signal_poles
-from softgrip.rig.laws import settled_torque
+from softgrip.simulator import calibration, calibration_table
+from softgrip.simulator.calibration import OPERATING_ANGLE, design_1, design_3, small_signal_poles
+from softgrip.simulator.laws import settled_torque
 from softgrip.units import DEG
 
 ENTRIES = calibration_table.entries()

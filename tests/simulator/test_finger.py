@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from book.chapter_5.logs import STEP_PLUNGER, STEPS
 from softgrip.errors import InvalidInputError
-from softgrip.rig import plant
-from softgrip.rig.angle_plant import AnglePlant
-from softgrip.rig.batches import in_parts
-from softgrip.rig.calibration import design_1
-from softgrip.rig.capacity_check import constant_capacity_error, least_air_swept
-from softgrip.rig.logs_chapter_5 import STEP_PLUNGER, STEPS
-from softgrip.rig.plant import SimulatedRig
+from softgrip.simulator import finger as plant
+from softgrip.simulator.angle_plant import AnglePlant
+from softgrip.simulator.batches import in_parts
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.capacity_check import constant_capacity_error, least_air_swept
+from softgrip.simulator.finger import SimulatedRig
 from softgrip.units import DEG, ML, REV
 
 RIG = design_1()

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softgrip.rig.force_layer import (
+from softgrip.simulator.force_layer import (
     CALIBRATED,
     ForceLayer,
     bridge_voltage,

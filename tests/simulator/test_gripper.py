@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from softgrip.errors import InvalidInputError
-from softgrip.rig.calibration import design_1
-from softgrip.rig.gripper_loop import CommandSequence, drive_gripper
-from softgrip.rig.gripper_parameters import drawn_gripper, printed_gripper
-from softgrip.rig.gripper_rig import GripperRig
-from softgrip.rig.parameters import GripperParameters, RigParameters
-from softgrip.rig.plant import SimulatedRig
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.gripper import GripperRig
+from softgrip.simulator.gripper_loop import CommandSequence, drive_gripper
+from softgrip.simulator.gripper_parameters import drawn_gripper, printed_gripper
+from softgrip.simulator.parameters import GripperParameters, RigParameters
 from softgrip.units import DEG, REV
 
 CALM = printed_gripper(spread=False)

@@ -8,15 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from softgrip.dynamics.integrate import RungeKutta
-from softgrip.rig import laws
-from softgrip.rig.calibration import (
+from softgrip.simulator import laws
+from softgrip.simulator.calibration import (
     FULL_ANGLE,
     FULL_PRESSURE,
     OPERATING_ANGLE,
     design_1,
     small_signal_poles,
 )
-from softgrip.rig.laws import AMOUNT, ANGLE, MEMORY, RATE, SENSED_PRESSURE, Plant
+from softgrip.simulator.laws import AMOUNT, ANGLE, MEMORY, RATE, SENSED_PRESSURE, Plant
 from softgrip.units import DEG
 
 ONE = np.ones(1)

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softgrip.rig import motor
-from softgrip.rig.parameters import PumpParameters
+from softgrip.simulator import motor
+from softgrip.simulator.parameters import PumpParameters
 from softgrip.units import REV
 
 PUMP = PumpParameters()

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from softgrip.errors import InvalidInputError
-from softgrip.rig import pad_calibration_table
-from softgrip.rig.calibration_table import read
-from softgrip.rig.pad_parameters import PadParameters
-from softgrip.rig.pad_rig import convert, make_pad, to_volts, voltages
+from softgrip.simulator import pad_calibration_table
+from softgrip.simulator.calibration_table import read
+from softgrip.simulator.pad import convert, make_pad, to_volts, voltages
+from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.tactile.element import compliance
 from softgrip.units import MM
 

@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq, nnls
 
 from softgrip.errors import InvalidInputError
-from softgrip.rig.pad_contact import bed_points, element_forces, spring_stiffness
-from softgrip.rig.pad_objects import pad_object
-from softgrip.rig.pad_parameters import PadParameters
-from softgrip.rig.pad_rig import make_pad, press
-from softgrip.rig.pad_surface import Pose, gap
+from softgrip.simulator.pad import make_pad, press
+from softgrip.simulator.pad_contact import bed_points, element_forces, spring_stiffness
+from softgrip.simulator.pad_objects import pad_object
+from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.simulator.pad_surface import Pose, gap
 from softgrip.units import DEG, MM
 
 IDEAL = make_pad(PadParameters())

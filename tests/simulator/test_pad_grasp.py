@@ -6,11 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from softgrip.control.pid import PERIOD
-from softgrip.rig.force_layer import ForceLayer, felt_force, layer_voltage, read_counts
-from softgrip.rig.pad_grasp import PadGrasp, grasp
-from softgrip.rig.pad_grasp_gripper import GraspGripper
-from softgrip.rig.pad_grasp_study import (
+from book.chapter_2.grasps import (
     FRICTION,
     OBJECTS,
     RUNS,
@@ -25,6 +21,10 @@ from softgrip.rig.pad_grasp_study import (
     study_gains,
     summary,
 )
+from softgrip.control.pid import PERIOD
+from softgrip.simulator.force_layer import ForceLayer, felt_force, layer_voltage, read_counts
+from softgrip.simulator.pad_grasp import PadGrasp, grasp
+from softgrip.simulator.pad_gripper import GraspGripper
 from softgrip.tactile.friction import common_friction, printed_grasps
 
 LAYER = ForceLayer()
@@ -33,7 +33,7 @@ LAYER = ForceLayer()
 def test_memory_of_the_layer_is_that_of_its_logs(monkeypatch):
     """Sample by sample in the loop, or at once by `felt_force`: the same."""
     monkeypatch.setattr(
-        "softgrip.rig.pad_grasp.ForceLayer",
+        "softgrip.simulator.pad_grasp.ForceLayer",
         lambda: replace(LAYER, object_seating=0.0, voltage_noise=0.0),
     )
     gripper = replace(GraspGripper(), opening=0.0)

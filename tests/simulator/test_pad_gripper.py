@@ -7,18 +7,18 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from softgrip.errors import InvalidInputError
-from softgrip.rig.pad_contact import bed_points, force_at_depth, spring_stiffness
-from softgrip.rig.pad_grasp_gripper import (
+from softgrip.simulator.pad import make_pad, press
+from softgrip.simulator.pad_contact import bed_points, force_at_depth, spring_stiffness
+from softgrip.simulator.pad_gripper import (
     GraspGripper,
     pad_side,
     plain_side,
     servo_position,
     squeeze,
 )
-from softgrip.rig.pad_objects import pad_object
-from softgrip.rig.pad_parameters import PadParameters
-from softgrip.rig.pad_rig import make_pad, press
-from softgrip.rig.pad_surface import Pose, gap
+from softgrip.simulator.pad_objects import pad_object
+from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.simulator.pad_surface import Pose, gap
 from softgrip.tactile.element import compliance
 from softgrip.units import MM
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from softgrip.rig.pad_objects import FOODS, OTHERS, pad_object
-from softgrip.rig.pad_surface import Pose, gap, rise, roughness
+from softgrip.simulator.pad_objects import FOODS, OTHERS, pad_object
+from softgrip.simulator.pad_surface import Pose, gap, rise, roughness
 from softgrip.units import DEG, MM
 
 POINTS = np.random.default_rng(0).uniform(-8, 8, (200, 2)) * MM

@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from softgrip.errors import InvalidInputError
-from softgrip.rig.chance import Chance, streams
-from softgrip.rig.parameters import SensorParameters, Spread
-from softgrip.rig.sensors import from_counts, measure, to_counts
+from softgrip.simulator.chance import Chance, streams
+from softgrip.simulator.parameters import SensorParameters, Spread
+from softgrip.simulator.sensors import from_counts, measure, to_counts
 from softgrip.units import DEG, PSI
 
 SENSORS = SensorParameters()

@@ -5,16 +5,16 @@ import shutil
 import numpy as np
 import pytest
 
+from book.chapter_5.logs import STEP_PLUNGER, STEP_PLUNGER_FX
 from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.logs.reader import read_log
+from softgrip.logs.repeated_steps import read_step_test
 from softgrip.provenance import data_file
-from softgrip.rig.calibration import design_1, design_3
-from softgrip.rig.chance import SEED
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.logs_chapter_5 import STEP_PLUNGER, STEP_PLUNGER_FX
-from softgrip.rig.parameters import PumpParameters
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.repeated_steps import read_step_test
-from softgrip.rig.step_tests import (
+from softgrip.simulator.calibration import design_1, design_3
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.parameters import PumpParameters
+from softgrip.simulator.steps import (
     simulate_step_test,
     step_commands,
     travel_to,

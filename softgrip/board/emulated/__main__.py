@@ -2,8 +2,8 @@
 
 import time
 
-from tests.emulator.emulated_rig import EmulatedRig
-from tests.emulator.terminal import Terminal
+from softgrip.board.emulated.emulated_rig import EmulatedRig
+from softgrip.board.emulated.terminal import Terminal
 
 if __name__ == "__main__":
     with Terminal(EmulatedRig()) as port:

@@ -5,9 +5,9 @@ from enum import IntEnum
 
 import numpy as np
 
-from softgrip.rig.protocol import CHANNELS, SetUp
-from tests.emulator import build
-from tests.emulator.library import built, library
+from softgrip.board.emulated import build
+from softgrip.board.emulated.library import built, library
+from softgrip.board.protocol import CHANNELS, SetUp
 
 CLOCK = 16_000_000
 """Cycles per second."""
@@ -70,12 +70,12 @@ class EmulatedBoard:
     @property
     def time(self) -> float:
         """Virtual time, s."""
-        return (self._before + self._c.board_cycle(self._board)) / CLOCK
+        return float(self._before + self._c.board_cycle(self._board)) / CLOCK
 
     @property
     def position(self) -> int:
         """Place of the plunger, steps, as the motor was turned."""
-        return self._c.board_position(self._board)
+        return int(self._c.board_position(self._board))
 
     @property
     def valve_open(self) -> bool:
@@ -102,9 +102,9 @@ class EmulatedBoard:
 
     def read_timed(self) -> tuple[bytes, np.ndarray]:
         """Return the bytes that have come, and when the last bit of each came, s."""
-        found, times = b"", []
+        found, times = b"", list[float]()
         while count := self._c.board_read(self._board, self._bytes, self._times, ROOM):
-            found += self._bytes[:count]
+            found += self._bytes.raw[:count]
             times += self._times[:count]
         return found, np.array(times) + self._before / CLOCK
 

@@ -5,10 +5,17 @@ import subprocess
 from functools import cache
 from pathlib import Path
 
-import pytest
+from softgrip.board.firmware.header import SKETCH
+from softgrip.board.protocol import SetUp
+from softgrip.errors import SoftgripError
 
-from softgrip.rig.firmware.header import SKETCH
-from softgrip.rig.protocol import SetUp
+
+class EmulatorUnavailableError(SoftgripError, RuntimeError):
+    """What compiles or runs the emulated board is not installed; says how to get it."""
+
+    def __init__(self, packages: str) -> None:
+        super().__init__(f"the emulated board needs: apt install {packages}")
+
 
 CORE = Path("/usr/share/arduino/hardware/arduino/avr")
 HARNESS = Path(__file__).with_name("harness.c")
@@ -35,10 +42,6 @@ def missing() -> str:
     return " ".join(packages)
 
 
-WHAT_IS_MISSING = f"the emulated board needs: apt install {missing()}" if missing() else ""
-needs_emulator = pytest.mark.skipif(bool(missing()), reason=WHAT_IS_MISSING)
-
-
 def _run(*command: object) -> str:
     done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
     if done.returncode:
@@ -63,8 +66,8 @@ def core(folder: Path) -> Path:
 @cache
 def firmware(folder: Path, set_up: SetUp = SetUp.GRIPPER, *, valve: bool = False) -> Path:
     """Build the firmware as the Arduino IDE would, and return its ELF file."""
-    if WHAT_IS_MISSING:
-        pytest.skip(WHAT_IS_MISSING)
+    if packages := missing():
+        raise EmulatorUnavailableError(packages)
     elf = folder / f"softgrip_rig_{set_up.name.lower()}{'_valve' if valve else ''}.elf"
     _run(
         *("avr-g++", *CHIP, *INCLUDES, "-std=gnu++11", "-Wall", "-Wextra", "-Werror"),

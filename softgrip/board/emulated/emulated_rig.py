@@ -4,15 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from softgrip.rig.calibration import design_1
-from softgrip.rig.driver import Rig
-from softgrip.rig.gripper_parameters import printed_gripper
-from softgrip.rig.gripper_rig import GripperRig
-from softgrip.rig.parameters import PumpParameters
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.protocol import CHANNELS
-from tests.emulator.board import CLOCK, PRESSURE, EmulatedBoard
-from tests.emulator.link import EmulatedLink
+from softgrip.board.driver import Rig
+from softgrip.board.emulated.board import CLOCK, PRESSURE, EmulatedBoard
+from softgrip.board.emulated.link import EmulatedLink
+from softgrip.board.protocol import CHANNELS
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.gripper import GripperRig
+from softgrip.simulator.gripper_parameters import printed_gripper
+from softgrip.simulator.parameters import PumpParameters
 
 FLEX = CHANNELS.index("flex_1")
 PERIOD = 0.005

@@ -2,7 +2,7 @@
  *
  * Copyright (C) 2024 The softgrip developers
  *
- * This file, a test component that links to simavr, is free software: you can redistribute it
+ * This file, which links to simavr and is compiled where it runs, is free software: you can redistribute it
  * and/or modify it under the terms of the GNU General Public License as published by the Free
  * Software Foundation, version 3 or any later version. It comes without any warranty; see
  * <https://www.gnu.org/licenses/>. No other file of softgrip links to it or is under that license.

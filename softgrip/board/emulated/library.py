@@ -5,8 +5,8 @@ from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from softgrip.rig.protocol import SetUp
-from tests.emulator import build
+from softgrip.board.emulated import build
+from softgrip.board.protocol import SetUp
 
 
 @cache

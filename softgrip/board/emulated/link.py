@@ -1,7 +1,7 @@
-"""The emulated board as a `softgrip.rig.link.Link`: waiting is what lets its time pass."""
+"""The emulated board as a `softgrip.board.link.Link`: waiting is what lets its time pass."""
 
-from softgrip.rig.board_errors import ConnectionLostError
-from tests.emulator.board import EmulatedBoard
+from softgrip.board.emulated.board import EmulatedBoard
+from softgrip.board.errors import ConnectionLostError
 
 
 class EmulatedLink:

@@ -6,7 +6,7 @@ import threading
 import time
 import tty
 
-from tests.emulator.link import EmulatedLink
+from softgrip.board.emulated.link import EmulatedLink
 
 
 class Terminal:

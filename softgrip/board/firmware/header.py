@@ -1,12 +1,12 @@
-"""The generated header of the firmware: the table of `softgrip.rig.protocol` in C++."""
+"""The generated header of the firmware: the table of `softgrip.board.protocol` in C++."""
 
 from enum import IntEnum, IntFlag
 from pathlib import Path
 from zlib import crc32
 
-from softgrip.rig import protocol
-from softgrip.rig.framing import LARGEST
-from softgrip.rig.message import Message
+from softgrip.board import protocol
+from softgrip.board.framing import LARGEST
+from softgrip.board.message import Message
 
 SKETCH = Path(__file__).parent / "softgrip_rig"
 HEADER = SKETCH / "protocol.h"
@@ -44,7 +44,7 @@ def _struct(message: Message) -> str:
 def header() -> str:
     """Return the header's text."""
     parts = [
-        "// Made from softgrip/rig/protocol.py by: python -m softgrip.rig.firmware.header",
+        "// Made from softgrip/board/protocol.py by: python -m softgrip.board.firmware.header",
         "// Do not edit.",
         "#pragma once",
         "#include <stdint.h>",

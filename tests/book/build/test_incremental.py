@@ -28,7 +28,7 @@ title: Small
 only_build_toc_files: true
 execute: {execute_notebooks: cache, timeout: 60}
 sphinx:
-  extra_extensions: [softgrip.book.extension]
+  extra_extensions: [book.build.extension]
   config:
     nb_execution_raise_on_error: true
     numfig: true
@@ -39,14 +39,11 @@ sphinx:
 @pytest.fixture
 def project(tmp_path, root):
     """A book of two pages, over a copy of the package and its data."""
-    for name in ("softgrip", "data"):
-        shutil.copytree(root / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
+    without = shutil.ignore_patterns("__pycache__", "_build", "*.md")
+    for name in ("softgrip", "data", "book"):
+        shutil.copytree(root / name, tmp_path / name, ignore=without)
     shutil.copy(root / "environment.lock", tmp_path)
     book = tmp_path / "book"
-    book.mkdir()
-    if (root / "book" / "_vendor").is_dir():
-        shutil.copytree(root / "book" / "_vendor", book / "_vendor")
-    shutil.copytree(root / "book" / "_static", book / "_static")
     (book / "_config.yml").write_text(CONFIG)
     (book / "_toc.yml").write_text("format: jb-book\nroot: a\nchapters:\n  - file: b\n")
     (book / "a.md").write_text(PAGE.format(title="A", code="import softgrip.units as u\nu.MPa"))

@@ -1,6 +1,6 @@
 import pytest
 
-from softgrip.book.numbering import number
+from book.build.numbering import number
 
 
 @pytest.mark.parametrize(

@@ -7,13 +7,13 @@ import sys
 
 import pytest
 
-from softgrip.book import tracing
+from book.build import tracing
 
 AROUND = {"python": "3"}
 
 
 def run(code, trace, root):
-    code = f"from softgrip.book import tracing\ntracing.record({str(trace)!r})\n{code}"
+    code = f"from book.build import tracing\ntracing.record({str(trace)!r})\n{code}"
     subprocess.run([sys.executable, "-c", code], check=True, cwd=root, env=os.environ)
     return set(json.loads(trace.read_text()))
 
@@ -24,7 +24,7 @@ def test_modules_and_data_files_that_were_used_are_recorded(tmp_path, root):
     )
     assert {"softgrip/materials/table.py", "data/materials/table_5_1.csv"} <= files
     assert "softgrip/materials/tensile.py" not in files
-    assert not [name for name in files if name.startswith("softgrip/book")]
+    assert not [name for name in files if name.startswith("book/build")]
 
 
 def test_what_was_not_used_is_not_recorded(tmp_path, root):
@@ -35,7 +35,7 @@ def test_what_was_not_used_is_not_recorded(tmp_path, root):
 
 
 def test_listed_folder_is_recorded(tmp_path, root):
-    code = "from softgrip.ledger import read_claims; read_claims()"
+    code = "from book.companion.claims import read_claims; read_claims()"
     assert "data/claims" in run(code, tmp_path / "t.json", root)
 
 

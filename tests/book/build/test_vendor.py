@@ -3,7 +3,7 @@ import hashlib
 
 import pytest
 
-from softgrip.book import vendor
+from book.build import vendor
 from softgrip.errors import DataFileError
 
 

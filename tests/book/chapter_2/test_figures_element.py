@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from softgrip.figures import chapter_2_element as figures
-from softgrip.figures import tables_2_element as tables
-from softgrip.figures.widgets_2_element import draw_element, outlines
+from book.chapter_2 import figures_element as figures
+from book.chapter_2 import tables_element as tables
+from book.chapter_2.sliders_element import draw_element, outlines
 from softgrip.tactile.element import SHAPES, Element, shortening
 from softgrip.tactile.element_fem import solve
 from softgrip.tactile.element_results import finest

@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from softgrip.figures import chapter_2_force, tables_2_force
-from softgrip.figures.chapter_2_force import figure_2_9, figure_2_h
-from softgrip.figures.exhibit import EXHIBITS
-from softgrip.figures.save import make, numbers
-from softgrip.figures.widgets_2_force import draw_bandwidth
+from book.chapter_2 import figures_force as chapter_2_force
+from book.chapter_2 import tables_force as tables_2_force
+from book.chapter_2.figures_force import figure_2_9, figure_2_h
+from book.chapter_2.forces import weight_bandwidth, weight_points
+from book.chapter_2.sliders_force import draw_bandwidth
+from book.companion.exhibit import EXHIBITS
+from book.companion.save import make, numbers
 from softgrip.provenance import Provenance
-from softgrip.rig.force_layer_study import weight_bandwidth, weight_points
 from softgrip.tactile.nadaraya_watson import NadarayaWatson
 from softgrip.units import GRAM_FORCE
 

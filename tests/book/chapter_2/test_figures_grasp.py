@@ -2,9 +2,10 @@
 
 import pytest
 
-from softgrip.figures import chapter_2_diagrams, chapter_2_grasp
-from softgrip.figures.style import style
-from softgrip.figures.tables_2_grasp import table_2_j, table_2_k
+from book.chapter_2 import diagrams as chapter_2_diagrams
+from book.chapter_2 import figures_grasp as chapter_2_grasp
+from book.chapter_2.tables_grasp import table_2_j, table_2_k
+from book.companion.style import style
 
 
 @pytest.mark.parametrize(
@@ -46,7 +47,7 @@ def test_grasp_table_has_what_is_desired_and_what_is_held():
 
 
 def test_captions_say_simulated_where_it_is():
-    from softgrip.figures.exhibit import EXHIBITS
+    from book.companion.exhibit import EXHIBITS
     from softgrip.provenance import Provenance
 
     for kind, number in (("figure", "2.14"), ("figure", "2.J"), ("table", "2.K")):

@@ -4,12 +4,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from softgrip.figures import chapter_2_kind as shown
-from softgrip.figures import tables_2_kind as tables
-from softgrip.figures.save import numbers
-from softgrip.figures.style import style
-from softgrip.rig import kind_study
-from softgrip.rig.kind_study import OBJECTS, TRAINING, contacts, kept
+from book.chapter_2 import figures_kind as shown
+from book.chapter_2 import kinds as kind_study
+from book.chapter_2 import tables_kind as tables
+from book.chapter_2.kinds import OBJECTS, TRAINING, contacts, kept
+from book.companion.save import numbers
+from book.companion.style import style
 from softgrip.tactile.accuracy_interval import Accuracy, counts_behind
 from softgrip.tactile.kind_evaluation import SplitScore
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from softgrip.figures import chapter_2_pad as shown
-from softgrip.figures.style import style
-from softgrip.figures.tables_2_pad import table_2_c, table_2_d
-from softgrip.figures.widgets_2_pad import COLOURS, draw_pad, outline
-from softgrip.rig.pad_objects import pad_object
-from softgrip.rig.pad_surface import Pose
+from book.chapter_2 import figures_pad as shown
+from book.chapter_2.sliders_pad import COLOURS, draw_pad, outline
+from book.chapter_2.tables_pad import table_2_c, table_2_d
+from book.companion.style import style
+from softgrip.simulator.pad_objects import pad_object
+from softgrip.simulator.pad_surface import Pose
 from softgrip.units import DEG
 
 

@@ -4,13 +4,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from book.chapter_2 import force_drift as force_layer_drift
+from book.chapter_2 import forces as force_layer_study
+from book.chapter_2.force_logs import AGES, read, simulate, write
+from book.chapter_2.force_protocols import put_down, weight_forces
 from softgrip.errors import UnknownNameError
+from softgrip.logs.reader import read_log
 from softgrip.provenance import Provenance, data_file
-from softgrip.rig import force_layer_drift, force_layer_study
-from softgrip.rig.force_layer import ForceLayer
-from softgrip.rig.force_layer_logs import AGES, read, simulate, write
-from softgrip.rig.force_layer_protocols import put_down, weight_forces
-from softgrip.rig.log_reader import read_log
+from softgrip.simulator.force_layer import ForceLayer
 from softgrip.tactile.bandwidth import best_bandwidth
 from softgrip.tactile.force import WEIGHTS, table_2_2
 from softgrip.tactile.force_comparison import cross_validated, regressors, root_mean_square

@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
+from book.chapter_2.contacts import FORCES, PAD_TESTS
+from book.companion.simulated_logs import COMMAND, make
 from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.logs.contacts import read_contacts
+from softgrip.logs.reader import read_log
+from softgrip.logs.schema import PAD_COLUMNS, LogHeader
 from softgrip.provenance import Provenance, data_file
-from softgrip.rig.contacts_log import read_contacts
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.log_schema import PAD_COLUMNS, LogHeader
-from softgrip.rig.pad_objects import FOODS
-from softgrip.rig.pad_parameters import PadParameters
-from softgrip.rig.pad_protocol import FORCES, PAD_TESTS
-from softgrip.rig.pad_rig import to_volts
-from softgrip.rig.simulated_logs import COMMAND, make
+from softgrip.simulator.pad import to_volts
+from softgrip.simulator.pad_objects import FOODS
+from softgrip.simulator.pad_parameters import PadParameters
 
 OBJECTS = data_file("simulated/pad-objects.csv").path
 

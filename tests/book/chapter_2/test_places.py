@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from book.chapter_2.places import ideal_responses, place_errors
+from softgrip.logs.contacts import read_contacts
 from softgrip.provenance import data_file
-from softgrip.rig.contacts_log import read_contacts
-from softgrip.rig.pad_accuracy import ideal_responses, place_errors
-from softgrip.rig.pad_surface import Pose
+from softgrip.simulator.pad_surface import Pose
 from softgrip.tactile.contact_line import angle_between, line_angle
 from softgrip.tactile.contact_place import place
 from softgrip.tactile.contacts import Contacts

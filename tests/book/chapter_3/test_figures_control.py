@@ -3,8 +3,8 @@
 import pytest
 from matplotlib.figure import Figure
 
-from softgrip.figures.tables_3_control import table_3_c, table_3_d
-from softgrip.figures.widgets_3_control import draw_lqr
+from book.chapter_3.sliders_control import draw_lqr
+from book.chapter_3.tables_control import table_3_c, table_3_d
 
 
 @pytest.mark.parametrize("step", [10, 90])

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from book.chapter_3.finger_drawing import bent_outline
 from softgrip.actuator.section import Section
-from softgrip.figures.finger_drawing import bent_outline
 
 SECTION = Section(0.02, 0.004, 0.03, 0.0015)
 

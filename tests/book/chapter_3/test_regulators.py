@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from book.chapter_3 import regulators as lqr_gains
+from book.chapter_4.identified_model import identified_model
 from softgrip.control.differentiator import RobustDifferentiator
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import input_gain, lqr_gain
@@ -10,15 +12,13 @@ from softgrip.control.minimum_time import minimum_settling_time
 from softgrip.control.state_feedback import StateFeedback
 from softgrip.dynamics.second_order import full_state_space
 from softgrip.errors import UnknownNameError
+from softgrip.logs.steps import step_figures, step_log_figures
 from softgrip.provenance import Provenance, data_file
-from softgrip.rig import lqr_gains
-from softgrip.rig.calibration import design_1
-from softgrip.rig.chance import SEED
-from softgrip.rig.closed_loop import run_on_rig
-from softgrip.rig.closed_loop_logs import STEP
-from softgrip.rig.identified_model import identified_model
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.step_log import step_figures, step_log_figures
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.closed_loop import run_on_rig
+from softgrip.simulator.closed_loop_log import STEP
+from softgrip.simulator.finger import SimulatedRig
 from softgrip.units import DEG
 
 

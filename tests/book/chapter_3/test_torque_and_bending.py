@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from book.chapter_3.torque_and_bending import DESIGNS, LENGTH, SCALE, blocked_torque, settled_angles
 from softgrip.errors import InvalidInputError
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.static_tests import DESIGNS, LENGTH, SCALE, blocked_torque, settled_angles
+from softgrip.simulator.finger import SimulatedRig
 from softgrip.units import DEG, MPa
 
 PRINTED_ANGLES = {"Design 1(E1)": 206, "Design 2(E1)": 201, "Design 3(E2)": 232}
@@ -38,7 +38,7 @@ def test_a_run_of_the_rig_rests_where_the_closed_form_says():
     """The dynamic rig, pushed and left for two minutes without a leak, is the oracle."""
     from dataclasses import replace
 
-    from softgrip.rig.calibration import design_1
+    from softgrip.simulator.calibration import design_1
 
     rig = design_1(spread=False)
     rig = replace(rig, gas=replace(rig.gas, leakage=0.0))

@@ -3,39 +3,39 @@
 import numpy as np
 import pytest
 
-from softgrip.control.loop import SPEED_LIMIT, run_loop
-from softgrip.control.minimum_time import farthest
-from softgrip.control.pid import PERIOD, PID
-from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed
-from softgrip.control.state_space_plant import StateSpacePlant
-from softgrip.dynamics.second_order import full_state_space
-from softgrip.errors import DataFileError, InvalidInputError, UnknownNameError
-from softgrip.provenance import Provenance, data_file
-from softgrip.rig import pid_gains
-from softgrip.rig.angle_plant import AnglePlant
-from softgrip.rig.calibration import (
-    OPERATING_ANGLE,
-    design_1,
-    small_signal_poles,
-    small_signal_stiffness,
-)
-from softgrip.rig.chance import SEED
-from softgrip.rig.closed_loop import run_on_rig
-from softgrip.rig.identified_model import (
+from book.chapter_3.logs import LOGS as REGULATED
+from book.chapter_4 import pid_gains
+from book.chapter_4.controllers import controller
+from book.chapter_4.identified_model import (
     PUSH_LOG,
     identified_model,
     identify_capacity,
     identify_finger,
 )
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.logs_chapter_3 import LOGS as REGULATED
-from softgrip.rig.logs_chapter_4 import CONTROLLED
-from softgrip.rig.pid_controllers import controller
-from softgrip.rig.plant import SimulatedRig
-from softgrip.rig.simulated_logs import COMMAND, make
-from softgrip.rig.staircase import staircase
-from softgrip.rig.staircase_log import lag, mean_edge, staircase_figures
-from softgrip.rig.step_log import smoothed, step_figures, step_log_figures
+from book.chapter_4.logs import CONTROLLED
+from book.companion.simulated_logs import COMMAND, make
+from softgrip.control.loop import SPEED_LIMIT, run_loop
+from softgrip.control.minimum_time import farthest
+from softgrip.control.pid import PERIOD, PID
+from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed
+from softgrip.control.staircase import staircase
+from softgrip.control.state_space_plant import StateSpacePlant
+from softgrip.dynamics.second_order import full_state_space
+from softgrip.errors import DataFileError, InvalidInputError, UnknownNameError
+from softgrip.logs.reader import read_log
+from softgrip.logs.staircase import lag, mean_edge, staircase_figures
+from softgrip.logs.steps import smoothed, step_figures, step_log_figures
+from softgrip.provenance import Provenance, data_file
+from softgrip.simulator.angle_plant import AnglePlant
+from softgrip.simulator.calibration import (
+    OPERATING_ANGLE,
+    design_1,
+    small_signal_poles,
+    small_signal_stiffness,
+)
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.closed_loop import run_on_rig
+from softgrip.simulator.finger import SimulatedRig
 from softgrip.units import DEG, ML
 
 NAMES = [*CONTROLLED, *REGULATED]

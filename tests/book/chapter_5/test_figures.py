@@ -2,10 +2,10 @@
 
 import pytest
 
+from book.chapter_5.sliders import draw_law, draw_new_material
+from book.companion.frames import render
+from book.companion.save import numbers
 from softgrip.errors import InvalidInputError
-from softgrip.explore.frames import render
-from softgrip.figures.save import numbers
-from softgrip.figures.widgets_5 import draw_law, draw_new_material
 from softgrip.materials.new_material import predict_power
 
 

@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 
-from softgrip.dynamics.linear import second_order
-from softgrip.errors import UnknownNameError
-from softgrip.provenance import data_file
-from softgrip.rig import step_sweep, step_test_protocols
-from softgrip.rig.step_test_models import (
+from book.chapter_5 import step_protocols as step_test_protocols
+from book.chapter_5 import step_sweep
+from book.chapter_5.step_models import (
     ANGLES,
     FINGERS,
     FORCE_PER_PRESSURE,
@@ -19,7 +17,10 @@ from softgrip.rig.step_test_models import (
     step_finger,
     step_test_error,
 )
-from softgrip.rig.step_tests import simulate_step_test, travel_to
+from softgrip.dynamics.linear import second_order
+from softgrip.errors import UnknownNameError
+from softgrip.provenance import data_file
+from softgrip.simulator.steps import simulate_step_test, travel_to
 from softgrip.units import DEG
 
 KEPT = step_test_protocols.read()

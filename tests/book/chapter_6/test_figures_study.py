@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from softgrip.figures import chapter_6_study as shown
+from book.chapter_6 import figures_study as shown
 from softgrip.gripper.gripper_batch import can_rest, draw_grippers
 from softgrip.gripper.plant import PRINTED
 

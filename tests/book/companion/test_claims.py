@@ -2,9 +2,9 @@
 
 import pytest
 
+from book.companion import claims as module
+from book.companion.claims import read_claims
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.ledger import claims as module
-from softgrip.ledger.claims import read_claims
 
 HEAD = "# provenance: printed\n# source: test\n"
 

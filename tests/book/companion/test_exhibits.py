@@ -4,10 +4,10 @@ import pandas as pd
 import pytest
 from matplotlib.figure import Figure
 
+from book.companion.exhibit import exhibit, exhibits
+from book.companion.save import numbers, save
+from book.companion.style import style
 from softgrip.errors import UnknownNameError
-from softgrip.figures.exhibit import exhibit, exhibits
-from softgrip.figures.save import numbers, save
-from softgrip.figures.style import style
 
 ALL = exhibits()
 

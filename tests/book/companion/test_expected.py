@@ -2,9 +2,9 @@
 
 import pytest
 
-from softgrip.ledger import ledger
-from softgrip.ledger.__main__ import BEGIN, END, expected
-from softgrip.ledger.counts import counts_table
+from book.companion.counts import counts_table
+from book.companion.ledger import BEGIN, END, expected
+from book.companion.verdict import ledger
 
 
 @pytest.fixture(scope="module")

@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from PIL import Image
 
+from book.companion import Slider, explore, slider
+from book.companion.frames import MAX_FRAMES, PAGE, Budget, Frame, render
 from softgrip.errors import InvalidInputError
-from softgrip.explore import Slider, explore, slider
-from softgrip.explore.frames import MAX_FRAMES, PAGE, Budget, Frame, render
 
 NAMES = ("a", "b", "c")
 

@@ -10,13 +10,14 @@ from collections.abc import Callable
 
 import pytest
 
+from book.companion.claims import read_claims
+from book.companion.ledger import expected
+from book.companion.verdict import judge
 from softgrip.actuator import bending, frequency
 from softgrip.actuator import section as cross_section
 from softgrip.control import lqr
 from softgrip.dynamics import consistency, linear, ludwick
 from softgrip.gripper import inversion, plant, reach
-from softgrip.ledger import judge, read_claims
-from softgrip.ledger.__main__ import expected
 from softgrip.materials import fitting, least_squares, power_curve, powerlaw
 from softgrip.pump import flow, gas
 from softgrip.tactile import element, hertz

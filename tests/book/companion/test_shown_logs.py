@@ -4,10 +4,10 @@ import shutil
 
 import pytest
 
+from book.companion.exhibit import exhibit, with_logs
+from book.companion.save import make, numbers
+from book.companion.show import show
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.figures.exhibit import exhibit, with_logs
-from softgrip.figures.save import make, numbers
-from softgrip.figures.show import show
 from softgrip.provenance import Provenance, data_folder
 
 PUSH = data_folder() / "simulated" / "push-d.csv"

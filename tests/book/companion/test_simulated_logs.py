@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
+from book.chapter_4.logs import PUSHES
+from book.chapter_5.logs import STEPS
+from book.companion.simulated_logs import COMMAND, main, make
 from softgrip.errors import UnknownNameError
+from softgrip.logs.reader import read_log
 from softgrip.provenance import Provenance, data_file
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.logs_chapter_4 import PUSHES
-from softgrip.rig.logs_chapter_5 import STEPS
-from softgrip.rig.parameters import SensorParameters
-from softgrip.rig.sensors import from_counts
-from softgrip.rig.simulated_logs import COMMAND, main, make
+from softgrip.simulator.parameters import SensorParameters
+from softgrip.simulator.sensors import from_counts
 from softgrip.units import ML, MPa
 
 NAMES = [*PUSHES, *STEPS]
@@ -62,6 +62,6 @@ def test_unknown_name_lists_the_known_ones():
 
 
 def test_command_makes_what_is_named(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr("softgrip.rig.simulated_logs.data_folder", lambda: tmp_path)
+    monkeypatch.setattr("book.companion.simulated_logs.data_folder", lambda: tmp_path)
     main(["step-60-1"])
     assert capsys.readouterr().out.strip() == str(tmp_path / "simulated" / "step-60-1.csv")

@@ -1,13 +1,15 @@
 """Verdicts follow by rule from printed string, stated inputs and named assumptions."""
 
+from types import SimpleNamespace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from book.companion import verdict as module
+from book.companion.claims import Claim
+from book.companion.verdict import Verdict, comes_out, decimals, judge
 from softgrip.errors import DataFileError
-from softgrip.ledger import verdict as module
-from softgrip.ledger.claims import Claim
-from softgrip.ledger.verdict import Verdict, comes_out, decimals, judge
 
 FIND = module._function
 
@@ -78,8 +80,8 @@ def test_bounds(relation, x, expected):
 
 def test_simulated_value_never_counts_as_coming_from_stated_inputs(monkeypatch):
     monkeypatch.setattr(module, "_function", FIND)
-    functions = {"value": module.simulated(lambda x: x)}
-    monkeypatch.setattr(module, "_functions", lambda chapter: functions)
+    chapter = SimpleNamespace(__name__="chapter", value=module.simulated(lambda x: x))
+    monkeypatch.setattr(module, "import_module", lambda name: chapter)
     assert judge(claim(basis="measurement")).simulated
     with pytest.raises(DataFileError, match="a measurement or an assumption, if it is simulated"):
         judge(claim())

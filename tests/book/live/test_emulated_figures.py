@@ -3,21 +3,21 @@
 import numpy as np
 import pytest
 
-from softgrip.figures.exhibit import exhibit
+from book.chapter_4.controllers import controller
+from book.chapter_6.controllers import gripper_controller, own_model, target_angles
+from book.companion.exhibit import exhibit
+from softgrip.board.driver import Rig
 from softgrip.gripper.internal_model import PERIOD
+from softgrip.logs.fingers import fingers_of
+from softgrip.logs.reader import read_log
+from softgrip.logs.steps import step_log_figures
 from softgrip.provenance import data_file
-from softgrip.rig.closed_loop_logs import STEP
-from softgrip.rig.driver import Rig
-from softgrip.rig.experiment import record
-from softgrip.rig.gripper_control import gripper_controller, own_model, target_angles
-from softgrip.rig.gripper_loop import OnTheMean
-from softgrip.rig.gripper_parameters import printed_gripper
-from softgrip.rig.gripper_tests import fingers_of
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.pid_controllers import controller
-from softgrip.rig.step_log import step_log_figures
+from softgrip.rig.record import record
+from softgrip.simulator.closed_loop_log import STEP
+from softgrip.simulator.gripper_loop import OnTheMean
+from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.units import DEG
-from tests.emulator.build import needs_emulator
+from tests.board.emulated import needs_emulator
 
 pytestmark = needs_emulator
 
@@ -45,7 +45,7 @@ def drawn(title, logs):
     ],
 )
 def test_a_step_of_the_finger(title, name, kept_logs, tmp_path):
-    from tests.emulator.emulated_rig import open_rig
+    from softgrip.board.emulated.emulated_rig import open_rig
 
     path, (other, own) = tmp_path / "step.csv", map(kept, kept_logs)
     duration = float(read_log(own)["time"][-1])
@@ -61,7 +61,7 @@ def test_a_step_of_the_finger(title, name, kept_logs, tmp_path):
 
 
 def test_two_fingers_on_one_pump(tmp_path):
-    from tests.emulator.emulated_rig import EmulatedRig, gripper
+    from softgrip.board.emulated.emulated_rig import EmulatedRig, gripper
 
     path, targets = tmp_path / "slow.csv", target_angles(own_model())
     pump = printed_gripper().pump

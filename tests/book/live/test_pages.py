@@ -7,20 +7,22 @@ import jupytext
 import pytest
 import serial
 
+from book.live import firmware as rig_firmware
+from book.live import protocol as rig_protocol
+from book.live.acceptance import bands_table
+from book.live.chapter_figure import chapter_figure
+from book.live.emulated import emulated_table, measured_firmware
+from book.live.finished import FinishedRun
+from book.live.panel import ControlPanel
+from softgrip.board.commands import HUNG_AFTER
+from softgrip.board.emulated.build import CORE
+from softgrip.board.framing import Frame, encode
+from softgrip.board.protocol import CHANNELS, MESSAGES, Flag
+from softgrip.board.session import HEARTBEAT_EVERY
 from softgrip.errors import DataFileError
-from softgrip.figures import rig_firmware, rig_protocol
-from softgrip.figures.rig_acceptance import bands_table
-from softgrip.figures.rig_chapter import chapter_figure
-from softgrip.figures.rig_emulated import emulated_table, measured_firmware
-from softgrip.figures.rig_finished import FinishedRun
-from softgrip.figures.widgets_rig import ControlPanel
 from softgrip.provenance import data_folder
 from softgrip.rig.acceptance import judge
-from softgrip.rig.board_commands import HUNG_AFTER
-from softgrip.rig.framing import Frame, encode
-from softgrip.rig.protocol import CHANNELS, MESSAGES, Flag
-from softgrip.rig.session import HEARTBEAT_EVERY
-from tests.emulator.build import CORE, needs_emulator
+from tests.board.emulated import needs_emulator
 
 PAGES = ("rig", "commissioning", "protocol")
 KEPT = data_folder() / "simulated"
@@ -125,7 +127,7 @@ def test_other_pins_are_refused(tmp_path):
 
 @needs_emulator
 def test_limits_of_the_page_are_those_that_the_firmware_tells():
-    from tests.emulator.emulated_rig import open_rig
+    from softgrip.board.emulated.emulated_rig import open_rig
 
     with open_rig() as rig:
         assert rig.info.limits == rig_firmware.limits("AT_START")

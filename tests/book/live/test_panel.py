@@ -6,17 +6,17 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 import pytest
 
+from book.live.experiments import experiments
+from book.live.finished import FinishedRun
+from book.live.panel import ControlPanel, control_panel
+from book.live.plot import LivePlot
+from softgrip.board.driver import Rig
+from softgrip.board.protocol import Flag
 from softgrip.errors import InvalidInputError
-from softgrip.figures.rig_finished import FinishedRun
-from softgrip.figures.rig_live import LivePlot
-from softgrip.figures.widgets_rig import ControlPanel, control_panel
+from softgrip.logs.reader import read_log
 from softgrip.provenance import data_folder
 from softgrip.rig.connect import connect
-from softgrip.rig.driver import Rig
 from softgrip.rig.live import Sample
-from softgrip.rig.live_experiments import experiments
-from softgrip.rig.log_reader import read_log
-from softgrip.rig.protocol import Flag
 from softgrip.units import DEG, REV
 from tests.rig.test_live import until
 

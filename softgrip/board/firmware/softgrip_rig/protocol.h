@@ -1,4 +1,4 @@
-// Made from softgrip/rig/protocol.py by: python -m softgrip.rig.firmware.header
+// Made from softgrip/board/protocol.py by: python -m softgrip.board.firmware.header
 // Do not edit.
 #pragma once
 #include <stdint.h>

@@ -1,4 +1,4 @@
-"""Boards for the tests of the driver: a stub in memory, and the same behind a real line."""
+"""Boards for the tests of driver and rig: a stub in memory, and the same behind a real line."""
 
 import os
 import socket
@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from tests.rig.stub_board import StubBoard
+from tests.board.stub_board import StubBoard
 
 
 class Served:

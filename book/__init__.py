@@ -1,0 +1,1 @@
+"""The book: its pages, and the code that only they need."""

@@ -1,0 +1,1 @@
+"""How the book is built: dependency tracing, numbering, scripts for use without a network."""

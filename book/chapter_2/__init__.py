@@ -1,0 +1,1 @@
+"""Chapter 2, the tactile sensor: experiments, figures, tables, sliders, numbers."""

@@ -1,0 +1,1 @@
+"""Chapter 4, the pump and its controllers: experiments, figures, tables, sliders, numbers."""

@@ -1,0 +1,1 @@
+"""Chapter 5, materials and dynamics: experiments, figures, tables, sliders, numbers."""

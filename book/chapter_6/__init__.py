@@ -1,0 +1,1 @@
+"""Chapter 6, a gripper on one pump: experiments, figures, tables, sliders, numbers."""

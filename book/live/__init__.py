@@ -1,0 +1,1 @@
+"""The pages of the rig: a live run, commissioning, the protocol."""

@@ -1,0 +1,1 @@
+"""The board of a rig: protocol, line, firmware, and the same firmware emulated."""

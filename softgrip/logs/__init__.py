@@ -1,0 +1,1 @@
+"""Logs of a rig: their one form, and what they say."""

@@ -1,0 +1,1 @@
+"""The simulated rig: finger, gripper, pad and force layer, calibrated to what is printed."""
