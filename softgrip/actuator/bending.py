@@ -49,7 +49,7 @@ class Finger:
 
 
 def check_power(fractional_power: float) -> None:
-    """Raise InvalidInputError unless n is a finite number >= 1, as below Eq. (3.8)."""
+    """Raise InvalidInputError unless n is a finite number >= 1, as Section 3.2 has it."""
     if not (np.isfinite(fractional_power) and fractional_power >= 1):
         raise InvalidInputError(
             "fractional_power", expected="a finite number >= 1", got=fractional_power
@@ -57,7 +57,7 @@ def check_power(fractional_power: float) -> None:
 
 
 def modified_moment(fractional_power: Value, width: Value, height: Value) -> Value:
-    """Return I_n of a solid rectangle, Eq. (3.8), m^(3 + n).
+    """Return the moment of inertia I_n of a solid rectangle, Eq. (3.8), m^(3 + n).
 
     ``M = E I_n kappa**n`` follows from integrating ``y E (kappa y)**n`` over the section. At n = 1
     it is ``w h**3 / 12``.
@@ -79,7 +79,7 @@ def modified_moment(fractional_power: Value, width: Value, height: Value) -> Val
 
 
 def elongation(section: Section, pressure: Value, young_modulus: Value) -> Value:
-    """Return ``L / L_i = 1 + P A_c / (A_w E)`` of Eq. (3.10), dimensionless."""
+    """Return ``(L_i + delta L) / L_i`` of Eq. (3.9): ``1 + P A_c / (A_w E)``, dimensionless."""
     return 1 + pressure * wall_stress_ratio(section) / young_modulus
 
 
@@ -103,7 +103,7 @@ def bending_angle(finger: Finger, pressure: Value, *, elongated: bool = True) ->
 
 
 def free_bending(finger: Finger, pressure: ArrayLike) -> Floats:
-    """Return theta of Eq. (3.10) for numbers, rad, after checking that it is defined.
+    """Return `bending_angle` of numbers, elongated, rad, after checking that it is defined.
 
     Parameters
     ----------

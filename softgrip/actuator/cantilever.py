@@ -62,7 +62,7 @@ class BentShape:
 
 
 def tip_force_angle(finger: Finger, force: float) -> float:
-    """Return theta of Eq. (3.13), rad, for a force across the tip, N: the closed form."""
+    """Return theta, rad, by the closed form for a force across the tip [N], Eq. (3.13)."""
     return float((force / spring_constant(finger)) ** (1 / finger.fractional_power))
 
 
@@ -176,7 +176,7 @@ def load_number(tip_angle: float, fractional_power: float, *, follower: bool = F
 def closed_form_error(
     tip_angle: float, fractional_power: float, *, follower: bool = False
 ) -> float:
-    """Return by how much of the true tip angle Eq. (3.13) exceeds it; parameters as `load_number`.
+    """Return by how much of the true tip angle the closed form exceeds it; see `load_number`.
 
     Examples
     --------
@@ -189,7 +189,7 @@ def closed_form_error(
 
 
 def angle_limit(error: float, fractional_power: float, *, follower: bool = False) -> float:
-    """Return the tip angle, rad, up to which Eq. (3.13) is off by at most `error`, a part, > 0."""
+    """Return the tip angle, rad, up to which the closed form errs by `error`, a part, > 0."""
     largest = np.pi / 2 if not follower else np.pi
     low, high = 1e-3 * largest, (1 - 1e-6) * largest
 

@@ -63,7 +63,7 @@ class CertifiedDesign:
 def certified_design(
     problem: DesignProblem, start: Section | None = None, *, tolerance: float = 1e-5
 ) -> CertifiedDesign:
-    """Solve Eq. (3.20) for its global optimum, and prove that it is one.
+    """Solve the design problem for its global optimum, and prove that it is one.
 
     IPOPT finds a local optimum, and the problem can have several: where the torque scale is large
     and the material nearly linear, one at the smallest height and one at the largest. Branch and
@@ -97,7 +97,7 @@ def certified_design(
 
 
 def certify(problem: DesignProblem, design: Design, *, tolerance: float = 1e-5) -> Certificate:
-    """Bound the objective of Eq. (3.20) over all sections that fulfil the constraints.
+    """Bound the objective over all sections that fulfil the constraints.
 
     Parameters
     ----------

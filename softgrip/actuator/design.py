@@ -25,7 +25,7 @@ class InfeasibleDesignError(SoftgripError, ValueError):
 
 @dataclass(frozen=True)
 class Bounds:
-    """The box of Eq. (3.17), least and largest value of each dimension, m.
+    """The box of a, b and w, Eq. (3.22), and of t and h: least and largest value of each, m.
 
     The defaults are those of Section 3.3, with the ranges of a and b exchanged: as printed, a (2
     to 5 mm) and b (14 to 24 mm) contradict Table 3.1, where a is 20 and b 4 mm.
@@ -68,7 +68,7 @@ class Bounds:
 
 @dataclass(frozen=True)
 class FrequencyBand:
-    """The band of natural frequencies of Table 3.2, for Eq. (3.23).
+    """A band of natural frequencies, as those of Table 3.2.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ class FrequencyBand:
 
 @dataclass(frozen=True)
 class DesignProblem:
-    """Eq. (3.20); without a band it is Eq. (3.17).
+    """The best section within bounds, Eq. (3.17); with a band of frequencies it is Eq. (3.20).
 
     Attributes
     ----------
@@ -149,13 +149,13 @@ class DesignProblem:
         return Finger(section, self.length, self.young_modulus, self.fractional_power)
 
     def product_for(self, frequency: float, mass: float) -> float:
-        """Return C of Eq. (3.23), N m^n, for a frequency [rad/s] and a mass [kg]."""
+        """Return C, N m^n, for a frequency [rad/s] and a mass [kg]."""
         found: float = stiffness_product_for(frequency, mass, self.fractional_power, self.length)
         return found
 
     @property
     def product_range(self) -> Range:
-        """C_1 and C_2 of Eq. (3.21), N m^n; 0 and infinity without a band."""
+        """C_1 and C_2, Eq. (3.23), N m^n; 0 and infinity without a band."""
         if self.band is None:
             return 0.0, inf
         return (
@@ -165,14 +165,14 @@ class DesignProblem:
 
 
 def objective(problem: DesignProblem, section: Section) -> Value:
-    """Return ``T / T_0 + theta / theta_0``, the sum of Eq. (3.20); defined where b >= t."""
+    """Return ``T / T_0 + theta / theta_0``, what is made large; defined where b >= t."""
     bent = bending_angle(problem.finger(section), problem.pressure)
     pushed = torque(section, problem.pressure)
     return pushed / problem.torque_scale + bent / problem.angle_scale
 
 
 def product(problem: DesignProblem, section: Section) -> Value:
-    """Return ``E w (a + b)**(n + 2)`` of Eq. (3.21), N m^n."""
+    """Return what Eq. (3.21) keeps between C_1 and C_2: ``E w (a + b)**(n + 2)``, N m^n."""
     return stiffness_product(section, problem.young_modulus, problem.fractional_power)
 
 

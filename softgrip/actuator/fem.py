@@ -62,21 +62,21 @@ class TipResponse:
 
     @property
     def angle(self) -> float:
-        """Bending angle of a free tip, rad/Pa: what Eq. (3.7) means at n = 1."""
+        """Bending angle of a free tip, rad/Pa, as `bending.bending_angle` has it at n = 1."""
         return float(self.free_motion[2])
 
     @property
     def torque(self) -> float:
-        """Moment of a finger held straight but free to stretch, N m/Pa: what Eq. (3.4) means."""
+        """Moment of a finger held straight but free to stretch, N m/Pa, as of `section.torque`."""
         stretch = self.push[0] / self.stiffness[0, 0]
         return float(self.push[2] - self.stiffness[2, 0] * stretch)
 
     @property
     def scale_torque(self) -> float:
-        """Eq. (3.24): L times the force of the tip on a scale that keeps it from dropping, N m/Pa.
+        """Length times the force of the tip on a scale, Eq. (3.24), N m/Pa.
 
-        Stretch and curl are free. A uniform beam then gives 3/2 of the moment M that bends it,
-        since ``F = (M L**2 / (2 E I)) / (L**3 / (3 E I))``.
+        The scale keeps the tip from dropping; stretch and curl are free. A uniform beam then gives
+        3/2 of the moment M that bends it, since ``F = (M L**2 / (2 E I)) / (L**3 / (3 E I))``.
         """
         return float(self.length * self.free_motion[1] / self.compliance[1, 1])
 

@@ -20,7 +20,7 @@ def spring_constant(finger: Finger) -> Value:
 
 
 def natural_frequency(finger: Finger, mass: Value) -> Value:
-    """Return omega_n of Eq. (3.16), rad/s: ``sqrt(K / M_eq)``.
+    """Return omega_n, rad/s, Eq. (3.16), the root of Eq. (3.18), which is K / M_eq in Eq. (3.15).
 
     For n other than 1 it is the frequency of no motion: that of ``theta'' + omega**2 theta**n = 0``
     depends on the amplitude, and equals omega_n at no particular one.
@@ -43,14 +43,14 @@ def natural_frequency(finger: Finger, mass: Value) -> Value:
 
 
 def stiffness_product(section: Section, young_modulus: Value, fractional_power: Value) -> Value:
-    """Return ``E w (a + b)**(n + 2)``, the left side of Eq. (3.19), N m^n."""
+    """Return ``E w (a + b)**(n + 2)``, N m^n: what of a section its natural frequency hangs on."""
     return young_modulus * section.width * section.height ** (fractional_power + 2)
 
 
 def stiffness_product_for(
     frequency: Value, mass: Value, fractional_power: Value, length: Value
 ) -> Value:
-    """Return the right side of Eq. (3.19) and (3.23): C for a frequency [rad/s] and a mass [kg]."""
+    """Return the stiffness product, Eq. (3.19), for a frequency [rad/s] and a mass [kg], N m^n."""
     n = fractional_power
     return (n / (n + 1)) ** n * 2 ** (n + 1) * (n + 2) * mass * frequency**2 * length ** (n + 1)
 

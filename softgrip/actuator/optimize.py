@@ -90,7 +90,7 @@ def evaluate(problem: DesignProblem, section: Section, iterations: int = 0) -> D
 
 
 def optimal_design(problem: DesignProblem, start: Section | None = None) -> Design:
-    """Maximise Eq. (3.20) by IPOPT.
+    """Find the best section by IPOPT: over a and b, Eq. (6.8), and w, at the thinnest wall.
 
     The objective falls with t wherever b > t (see `section.torque`), and t is in no other
     constraint: so t is at its lower bound, and what is left are a, b and w, as logarithms. With

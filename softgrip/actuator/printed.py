@@ -42,7 +42,7 @@ class BandRow:
         bottom_limit: float = 4 * MM,
         top_limit: float = 20 * MM,
     ) -> DesignProblem:
-        """Return Eq. (3.20) for the row.
+        """Return the design problem for the row.
 
         The upper bounds of a and b are where the printed optimum lies: 20 mm is named as a limit
         in Section 3.5, 4 mm nowhere.

@@ -85,7 +85,7 @@ def wall_area(section: Section) -> Value:
 
 
 def wall_stress_ratio(section: Section) -> Value:
-    """Return ``P_w / P`` of Eq. (3.3): the wall's tension balances the pressure, Eq. (3.1).
+    """Return ``P_w / P``, Eq. (3.3), by which the forces along the finger, Eq. (3.1), balance.
 
     Examples
     --------
@@ -96,13 +96,13 @@ def wall_stress_ratio(section: Section) -> Value:
 
 
 def torque(section: Section, pressure: Value) -> Value:
-    """Return T of Eq. (3.4) to (3.6), N m: positive towards the bottom.
+    """Return T, N m, Eq. (3.4): the moments, Eq. (3.2), of chamber, Eq. (3.5), and wall, Eq. (3.6).
 
-    The pressure pushes on the end of a cut finger, the wall pulls on it; their forces balance, and
-    their moments about the neutral surface are subtracted: ``T = T_P - T_Pw``. (Eq. (3.4) prints
-    a plus; added, they give 1.80 N m for Design 1 at 0.25 MPa, where the text has up to 0.5.) With
-    both integrals done, what is left is the chamber's area times the distance between the two
-    centroids, and that is
+    Positive towards the bottom. The pressure pushes on the end of a cut finger, the wall pulls on
+    it; their forces balance, and their moments about the neutral surface are subtracted:
+    ``T = T_P - T_Pw``. (Eq. (3.4) prints a plus; added, they give 1.80 N m for Design 1 at 0.25
+    MPa, where the text has up to 0.5.) With both integrals done, what is left is the chamber's area
+    times the distance between the two centroids, and that is
 
     ``T = P / 2 * (A_c / A_w) * w (a + b) (b - t)``.
 

@@ -68,7 +68,7 @@ class Design:
 
 
 def actuator_design(finger: SecondOrder, *, step: float = STEP, evaluations: int = 300) -> Design:
-    """Design a PID from angle error to pressure [Pa] on Eq. (4.14), as if pressure came at once.
+    """Design a PID from angle error to pressure [Pa] on the finger, as if pressure came at once.
 
     The command is limited to 0.15 MPa, up to which Section 4.3 takes the finger as linear.
 
@@ -88,7 +88,7 @@ def actuator_design(finger: SecondOrder, *, step: float = STEP, evaluations: int
 def full_design(
     finger: SecondOrder, pump_gain: float, *, step: float = STEP, evaluations: int = 300
 ) -> Design:
-    """Design a PID from angle error to motor speed [rad/s] on Eq. (4.15).
+    """Design a PID from angle error to motor speed [rad/s] on pump and finger.
 
     The command is limited to 5 rev/s. Since the model integrates, its reaction curve is the ramp in
     which its step response ends.

@@ -60,7 +60,7 @@ def limited_loop(
     duration: float = 6.0,
     limit: float = SPEED_LIMIT,
 ) -> LoopResult:
-    """Run a regulator on its own linear model, Eq. (4.15), with true states and a limited motor.
+    """Run a regulator on its own linear model, with true states and a limited motor.
 
     Parameters
     ----------

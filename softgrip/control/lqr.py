@@ -24,7 +24,7 @@ FINGER = SecondOrder(2.86, 0.7)
 @final
 @dataclass(frozen=True)
 class Weights:
-    """The weights of Eq. (3.29), ``Q = p diag(q)`` and R; by default those printed.
+    """The weights ``Q = p diag(q)``, Eq. (3.29), and R; by default those printed.
 
     Attributes
     ----------
@@ -52,12 +52,12 @@ class Weights:
 
     @property
     def Q(self) -> Floats:
-        """Q of Eq. (3.29), shape (3, 3)."""
+        """Weight of the states, shape (3, 3)."""
         return self.p * np.diag(self.q)
 
 
 def input_gain(finger: SecondOrder, pump_gain: float, set_speed: float) -> float:
-    """Return the numerator of Eq. (3.25), ``l A_s omega_m c / (2 pi C_s M)``, rad/s^3.
+    """Return the numerator of the plant, Eq. (3.25), ``l A_s omega_m c / (2 pi C_s M)``, rad/s^3.
 
     It holds the set motor speed omega_m, so the input u of Eq. (3.26) is a share of that speed. In
     the terms of Eq. (4.14), ``c / M`` is the finger's static gain times omega_n squared.
@@ -76,7 +76,9 @@ def input_gain(finger: SecondOrder, pump_gain: float, set_speed: float) -> float
 
 
 def canonical_form(finger: SecondOrder, gain: float = 1.0) -> control.StateSpace:
-    """Return Eq. (3.26)-(3.28), from the share u to the angle [rad].
+    """Return the states, Eq. (3.26), and the output, Eq. (3.27), with the matrices, Eq. (3.28).
+
+    The input is the share u of the set motor speed, the output the angle [rad].
 
     Parameters
     ----------
@@ -114,7 +116,7 @@ def derivatives_from_full_state(finger: SecondOrder) -> Floats:
 
 
 def lqr_gain(finger: SecondOrder, weights: Weights) -> Floats:
-    """Return ``K = R^-1 B' Y`` of Eq. (3.30), with Y from the Riccati equation, shape (3,).
+    """Return K of ``u = -K x``, Eq. (3.30): ``R^-1 B' Y``, Y by the Riccati equation, shape (3,).
 
     Examples
     --------

@@ -87,7 +87,7 @@ def reaction_curve(
 def integrating_reaction_curve(
     time: ArrayLike, output: ArrayLike, *, step: float = 1.0, tail: float = 0.25
 ) -> ReactionCurve:
-    """Lay the asymptote on the step response of a process that integrates, such as Eq. (4.15).
+    """Lay the asymptote on the step response of a process that integrates, as pump and finger do.
 
     Such a response has no level to come to: it ends in a ramp, whose slope is R and whose meeting
     with the level before the step is L. For Eq. (4.15) L is ``2 zeta / omega_n``.

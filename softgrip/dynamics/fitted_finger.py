@@ -12,7 +12,7 @@ from softgrip.dynamics.ludwick_response import pressure_response
 
 @dataclass(frozen=True)
 class FittedFinger:
-    """Eq. (5.16), or with n = 1 Eq. (5.17), fitted to a record.
+    """A finger after Ludwick's law, or with n = 1 after Hooke's, fitted to a record.
 
     Attributes
     ----------

@@ -70,7 +70,7 @@ def identify(
     initial_input: float | None = None,
     hold: Hold = "linear",
 ) -> Identified:
-    """Fit Eq. (4.13) to a measured input and output by least squares.
+    """Fit a second-order system to a measured input and output by least squares.
 
     The system is simulated with the input as it was sampled, so it need not be a step. It must
     rest before the record starts. Intervals come from the Jacobian and suppose that the errors of

@@ -28,7 +28,7 @@ def moment_of_inertia(width: Value, height: Value) -> Value:
 
 
 def spring_constant(young_modulus: Value, width: Value, height: Value, length: Value) -> Value:
-    """Return K of ``P = K theta``, Eq. (5.10), N/rad: of a cantilever with a force at its tip.
+    """Return K, Eq. (5.10), N/rad: the spring of a cantilever with a force at its tip.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def spring_constant(young_modulus: Value, width: Value, height: Value, length: V
 
 
 def force(angle: Value, stiffness: Value) -> Value:
-    """Return the force at the tip, N, that holds an angle (rad), Eq. (5.9).
+    """Return the force at the tip, N, that holds an angle [rad], Eq. (5.9).
 
     The print calls it P here and F in the sentence below; it is a force, not a pressure.
     """
@@ -54,12 +54,14 @@ def force(angle: Value, stiffness: Value) -> Value:
 
 
 def linear_finger(mass: float, damping: float, stiffness: float) -> LudwickFinger:
-    """Return Eq. (5.17): Eq. (5.16) with n = 1. Units as in `LudwickFinger`."""
+    """Return the finger with a linear spring, n = 1, Eq. (5.17); units as in `LudwickFinger`."""
     return LudwickFinger(mass, damping, stiffness, 1.0)
 
 
 def second_order(finger: LudwickFinger, force_per_pressure: float) -> SecondOrder:
-    """Return Eq. (5.17) as the system from pressure to angle of Eq. (4.13).
+    """Return a linear finger by its damping ratio and natural frequency, Eq. (3.12) at n = 1.
+
+    It is the system from pressure to angle of Eq. (4.13).
 
     Parameters
     ----------

@@ -48,7 +48,7 @@ def modified_moment(fractional_power: Value, width: Value, height: Value) -> Val
 def spring_constant(
     young_modulus: Value, fractional_power: Value, width: Value, height: Value, length: Value
 ) -> Value:
-    """Return K_n of ``P = K_n theta**n``, Eq. (5.13) with Eq. (5.14).
+    """Return the spring constant K_n of ``P = K_n theta**n``, Eq. (5.13), with `modified_moment`.
 
     At n = 1 it is ``E b h**3 / (3 L**2)``, twice the ``E b h**3 / (6 L**2)`` of Eq. (5.10) and
     (5.11): see `modified_moment`.
@@ -73,7 +73,7 @@ def spring_constant(
 
 
 def restoring_force(angle: Value, stiffness: Value, fractional_power: Value) -> Value:
-    """Return ``K_n theta**n``, Eq. (5.12), continued as an odd function below zero.
+    """Return the force ``K_n theta**n``, Eq. (5.12), continued as an odd function below zero.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def restoring_force(angle: Value, stiffness: Value, fractional_power: Value) -> 
 
 @dataclass(frozen=True)
 class LudwickFinger:
-    """Parameters of Eq. (5.16); each a number, or an array of shape (runs,).
+    """Mass, damper and spring of a finger; each a number, or an array of shape (runs,).
 
     Attributes
     ----------
@@ -135,7 +135,7 @@ class LudwickFinger:
 
 
 def acceleration(finger: LudwickFinger, angle: Value, rate: Value, force: Value) -> Value:
-    """Return the bending acceleration of Eq. (5.16).
+    """Return the angular acceleration, Eq. (3.11): what force, damper and spring leave, Eq. (5.15).
 
     Parameters
     ----------
@@ -163,7 +163,7 @@ def acceleration(finger: LudwickFinger, angle: Value, rate: Value, force: Value)
 
 
 def derivative(finger: LudwickFinger, force: ArrayLike) -> Derivative:
-    """Return the law of Eq. (5.16) for `integrate.rk4`; rows are angle and rate.
+    """Return the equation of motion, Eq. (5.16), for `integrate.rk4`; rows are angle and rate.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ def fit_finger(
     fractional_power: float | None,
     stiffness: float | None = None,
 ) -> FittedFinger:
-    """Fit Eq. (5.16) to a record, or to the mean of several, by least squares of the angle.
+    """Fit a finger to a record, or to the mean of several, by least squares of the angle.
 
     The finger rests at angle zero before the record. Intervals come from the Jacobian and suppose
     independent errors of the angle: where the model itself is wrong they are too narrow.

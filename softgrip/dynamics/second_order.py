@@ -14,7 +14,7 @@ from softgrip.errors import InvalidInputError
 @final
 @dataclass(frozen=True)
 class SecondOrder:
-    """The parameters of Eq. (4.13) with F = C P.
+    """A finger by damping ratio and natural frequency, Eq. (4.13) with F = C P.
 
     Attributes
     ----------
@@ -53,13 +53,13 @@ class SecondOrder:
 
     @property
     def rates(self) -> tuple[complex, complex]:
-        """The a and b of Eq. (4.11), 1/s: minus the poles, a complex pair when zeta < 1."""
+        """Rates a and b of the response, 1/s: minus the poles, a complex pair when zeta < 1."""
         fast, slow = _rates(self.natural_frequency, self.damping_ratio)
         return complex(fast), complex(slow)
 
     @classmethod
     def from_rates(cls, a: complex, b: complex, gain: float = 1.0) -> "SecondOrder":
-        """Return the system whose response decays at the rates a and b, Eq. (4.11)-(4.13).
+        """Return the system whose response decays at the rates a and b, Eq. (4.12).
 
         Parameters
         ----------
@@ -92,7 +92,7 @@ class SecondOrder:
 def step_response(
     time: ArrayLike, natural_frequency: ArrayLike, damping_ratio: ArrayLike
 ) -> Floats:
-    """Return the response to a unit step, divided by the static gain: Eq. (4.11), solved.
+    """Return the response to a unit step, Eq. (4.11), divided by the static gain.
 
     One form serves a complex pair, two equal rates and two real rates. All arguments broadcast:
     with time of shape (N,) and parameters of shape (runs, 1) the result is (runs, N).
@@ -143,10 +143,10 @@ def free_motion(
 
 
 def state_space(system: SecondOrder) -> control.StateSpace:
-    """Return Eq. (4.14): from pressure [Pa] to angle [rad], with the states angle and rate.
+    """Return the finger as a state space, Eq. (4.14), from pressure [Pa] to angle [rad].
 
-    The equation is printed with P in its numerator, which is then the angle and not its ratio to
-    the pressure; here P is the input.
+    The states are angle and rate. The equation is printed with P in its numerator, which is then
+    the angle and not its ratio to the pressure; here P is the input.
     """
     w = system.natural_frequency
     return control.ss(
@@ -161,7 +161,7 @@ def state_space(system: SecondOrder) -> control.StateSpace:
 
 
 def full_state_space(system: SecondOrder, pump_gain: float) -> control.StateSpace:
-    """Return Eq. (4.15): from motor speed [rad/s] to angle [rad].
+    """Return pump and finger as a state space, Eq. (4.15), from motor speed [rad/s] to angle [rad].
 
     The states are pressure [Pa], angle [rad] and angular rate [rad/s]. The equation is printed with
     the motor speed in its numerator although that is the input, so it holds either for the angle

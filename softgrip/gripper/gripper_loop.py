@@ -48,7 +48,7 @@ def run_gripper(
     points: int = 20,
     seed: int = 0,
 ) -> GripperRun:
-    """Run a controller on fingers at rest; it is reset first.
+    """Run a controller on real fingers, Eq. (6.21), from rest; it is reset first.
 
     Parameters
     ----------

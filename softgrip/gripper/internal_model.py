@@ -78,7 +78,10 @@ def controller_matrices(
     delay_samples: int = 0,
     method: Method = "bilinear",
 ) -> ControllerMatrices:
-    """Return Figure 6.3 in discrete time; parameters as for `InternalModelController`."""
+    """Return Figure 6.3 in discrete time, with the feedback of Eq. (6.23).
+
+    Parameters as for `InternalModelController`.
+    """
     check_positive(period=period)
     if delay_samples < 0:
         raise InvalidInputError("delay_samples", expected=">= 0", got=delay_samples)

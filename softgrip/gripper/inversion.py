@@ -59,10 +59,10 @@ class LeftInverse:
 
 
 def mean_inverse(gripper: Gripper) -> LeftInverse:
-    """Return the mean of the elements' inverses: the P-dagger that Section 6.4 prints.
+    """Return the mean of the elements' inverses: the printed P-dagger, which solves Eq. (6.19).
 
-    It has no finite pole, so nothing in it can be unstable. It is a left inverse, but Theorem 2
-    names another one: see `moore_penrose_inverse`.
+    Section 6.4 prints it. It has no finite pole, so nothing in it can be unstable. It is a left
+    inverse, but Theorem 2 names another one: see `moore_penrose_inverse`.
 
     Examples
     --------
@@ -115,7 +115,7 @@ def moore_penrose_inverse(gripper: Gripper, *, adjoint: bool = False) -> LeftInv
 
 
 def filtered_inverse(inverse: LeftInverse, low_pass: control.StateSpace) -> control.StateSpace:
-    """Return ``H(s) P-dagger(s)``, Eq. (6.20), from the angles [rad] to the command.
+    """Return the filtered inverse ``H(s) P-dagger(s)``, Eq. (6.20), from angles [rad] to command.
 
     The powers of s act on the filter's input matrix, ``H s^k = C (s I - A)^-1 A^k B`` and, for
     k = 3, ``+ C A^2 B``: exact, and of the filter's order, where a product of transfer functions

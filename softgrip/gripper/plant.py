@@ -13,7 +13,7 @@ from softgrip.errors import InvalidInputError
 @final
 @dataclass(frozen=True)
 class FingerDynamics:
-    """One element of Eq. (6.16), ``gain / (s**3 + damping s**2 + stiffness s)``.
+    """One element of P(s), Eq. (6.16): ``gain / (s**3 + damping s**2 + stiffness s)``.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class FingerDynamics:
         torque_per_pressure: float,
         pump_gain: float,
     ) -> "FingerDynamics":
-        """Return the element from physical parameters, Eq. (6.9) and (6.14).
+        """Return the element from the parameters of finger, Eq. (6.9), and pump, Eq. (6.14).
 
         Parameters
         ----------
@@ -80,7 +80,7 @@ class FingerDynamics:
 @final
 @dataclass(frozen=True)
 class Gripper:
-    """Two or more fingers on one pump; Eq. (6.6) with one input.
+    """Two or more fingers on one pump: P(s) is a column, Eq. (6.6).
 
     Raises
     ------
@@ -120,7 +120,7 @@ PRINTED = Gripper((FingerDynamics(2.66, 3.61, 7.831), FingerDynamics(2.45, 3.06,
 
 
 def finger_state_space(finger: FingerDynamics) -> control.StateSpace:
-    """Return Eq. (6.15): from the input to the angle [rad], states of a controllable form."""
+    """Return a finger with a pump, Eq. (6.15), in controllable form, from input to angle [rad]."""
     return control.ss(
         [[0, 1, 0], [0, 0, 1], [0, -finger.stiffness, -finger.damping]],
         [[0], [0], [1]],
@@ -130,7 +130,7 @@ def finger_state_space(finger: FingerDynamics) -> control.StateSpace:
 
 
 def stacked_state_space(gripper: Gripper) -> control.StateSpace:
-    """Return Eq. (6.11): three states a finger, one input, one output a finger.
+    """Return the fingers stacked, Eq. (6.11): three states and one output a finger, one input.
 
     Each finger has an integrator of its own here, though there is one pump: only the sum of the
     states that they share is driven, so with two fingers or more this realization is not
@@ -146,10 +146,11 @@ def stacked_state_space(gripper: Gripper) -> control.StateSpace:
 
 
 def state_space(gripper: Gripper) -> control.StateSpace:
-    """Return Eq. (6.16) with the pump's integrator once: 1 + 2 fingers states, minimal if unequal.
+    """Return a realization, Eq. (6.4), of P(s), Eq. (6.5): pump, then the fingers, Eq. (6.10) each.
 
-    The states are the integral of the input, then angle over gain and rate over gain of each
-    finger. Outputs are the angles, rad.
+    It has 1 + 2 fingers states, and is minimal if the fingers are unequal, since the pump's
+    integrator is in it once. The states are the integral of the input, then angle over gain and
+    rate over gain of each finger. Outputs are the angles, rad.
     """
     count = len(gripper.fingers)
     size = 1 + 2 * count

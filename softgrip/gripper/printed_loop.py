@@ -29,7 +29,7 @@ def crossover(target_loop: str) -> float:
 
 
 def equal_targets(angle: float = np.pi / 3) -> Floats:
-    """Return proj(Y_d) for equal angles of both fingers, rad, Eq. (6.25)."""
+    """Return proj(Y_d) for equal angles, rad: of pi/3 in Eq. (6.26), of pi/4 in Eq. (6.27)."""
     return project(PRINTED, [angle, angle]).reached
 
 

@@ -43,7 +43,7 @@ class UnreachableTargetError(SoftgripError, ValueError):
 @final
 @dataclass(frozen=True)
 class Projection:
-    """A target split by Eq. (6.24).
+    """A target split into what is reached and what is left.
 
     Attributes
     ----------
@@ -61,7 +61,9 @@ class Projection:
 
 
 def direction(gripper: Gripper, frequency: ArrayLike = 0.0) -> Complex:
-    """Return q of Eq. (6.25), of length one: complex, shape (..., fingers).
+    """Return q of length one: the column of P, Eq. (6.1), by the fingers alone, Eq. (6.12).
+
+    It spans the image, and is complex, of shape (..., fingers).
 
     Parameters
     ----------
@@ -89,7 +91,7 @@ def direction(gripper: Gripper, frequency: ArrayLike = 0.0) -> Complex:
 
 
 def project(gripper: Gripper, target: ArrayLike) -> Projection:
-    """Split target angles at rest into what can be reached and what cannot, Eq. (6.24)-(6.25).
+    """Split target angles at rest, Eq. (6.24), into what can be reached, Eq. (6.25), and the rest.
 
     Parameters
     ----------
@@ -118,7 +120,7 @@ def project(gripper: Gripper, target: ArrayLike) -> Projection:
 
 
 def reachable(gripper: Gripper, target: ArrayLike, *, tolerance: float = TOLERANCE) -> Floats:
-    """Return the reachable angles nearest to a target, if they are near enough.
+    """Return the angles nearest to a target for which Eq. (6.7) holds, if they are near enough.
 
     Parameters
     ----------
@@ -158,7 +160,9 @@ reaches is [0.0, 0.0] rad
 
 
 def outside_share(gripper: Gripper, target: ArrayLike, frequency: ArrayLike) -> Floats:
-    """Return which share of a target's length no input can produce at each frequency.
+    """Return which share of a target lies outside the image, Eq. (6.2): 0 where Eq. (6.3) holds.
+
+    It is the share of its length that no input can produce at each frequency,
 
     ``|(I - q q*) d| / |d|`` for a constant direction d of the target, as a step has it. Along the
     direction at rest it is 0 at frequency 0 only: far above the natural frequencies the fingers

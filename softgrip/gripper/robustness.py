@@ -54,7 +54,7 @@ def structured_gain(
     weights: Floats,
     frequency: ArrayLike,
 ) -> Floats:
-    """Return ``sum |W_i P_i H P-dagger_i|`` at frequencies: robust stability asks for < 1.
+    """Return ``sum |W_i P_i H P-dagger_i|``: below 1 the loop withstands all plants of Eq. (6.17).
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def tolerated_uncertainty(gripper: Gripper, feedback: control.StateSpace) -> flo
 def continuous_stability(
     nominal: Gripper, real: Gripper, inverse: LeftInverse, low_pass: control.StateSpace
 ) -> Stability:
-    """Return the poles of the loop in continuous time, with other fingers than the model's."""
+    """Return the poles of the continuous loop with other fingers than the model's, Eq. (6.22)."""
     ahead, model, plant = (
         filtered_inverse(inverse, low_pass),
         state_space(nominal),

@@ -28,7 +28,7 @@ class HeldMotion:
 def held_motion(
     damping: Floats, stiffness: Floats, gain: Floats, step: float, points: int
 ) -> HeldMotion:
-    """Return the zero-order hold of Eq. (6.15) at equally spaced times within the hold.
+    """Return the zero-order hold of a finger at equally spaced times within the hold.
 
     With b the impulse response of ``s**2 + damping s + stiffness``, all else follows from b and its
     rate: the integral of b from the differential equation integrated once, that of the integral

@@ -21,7 +21,7 @@ LEAST = 1e-6
 
 
 def finger_response(finger: FingerDynamics, frequency: ArrayLike) -> Complex:
-    """Return the element of Eq. (6.16) at ``s = j frequency``, rad/s, > 0, shape (N,)."""
+    """Return the finger's element of P(s) at ``s = j frequency``, rad/s, > 0, shape (N,)."""
     s = 1j * np.asarray(frequency, dtype=np.float64)
     return np.asarray(finger.gain / (s**3 + finger.damping * s**2 + finger.stiffness * s))
 
@@ -79,7 +79,7 @@ def excited_band(command: ArrayLike, period: float, *, share: float) -> tuple[fl
 
 
 def deviation(responses: ArrayLike, nominal: ArrayLike) -> Floats:
-    """Return the left side of Eq. (6.18), the largest over the runs at each frequency.
+    """Return the least ``|W_T|`` that Eq. (6.18) allows at each frequency, over all runs.
 
     Parameters
     ----------
@@ -92,9 +92,9 @@ def deviation(responses: ArrayLike, nominal: ArrayLike) -> Floats:
 
 
 def parameter_bounds(fingers: Sequence[FingerDynamics]) -> tuple[float, float]:
-    """Return the largest deviations of damping and stiffness from their means, as shares.
+    """Return the bounds of damping and stiffness, Eq. (6.13), as shares of their means.
 
-    Those are the numbers of Section 6.4 that follow Eq. (6.13): 0.143 and 0.059.
+    The largest deviations: those printed in Section 6.4 are 0.143 and 0.059.
     """
     found = np.array([(f.damping, f.stiffness) for f in fingers])
     mean = found.mean(axis=0)

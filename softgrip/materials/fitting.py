@@ -31,7 +31,7 @@ LONGEST_STRAINS = (2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, inf)
 
 @dataclass(frozen=True)
 class Fitting:
-    """One way to fit Ludwick's law, Eq. (5.2), to a tensile test.
+    """One way to fit Ludwick's law to a tensile test.
 
     Attributes
     ----------

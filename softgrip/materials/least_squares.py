@@ -31,7 +31,7 @@ class Prediction:
 
 
 def normal_equations(A: ArrayLike, y: ArrayLike) -> Floats:
-    """Solve ``A x = y`` for the least sum of squares, Eq. (5.4).
+    """Solve ``A x = y``, Eq. (5.3), for the least sum of squares, Eq. (5.4).
 
     The product of A with its transpose squares the condition number, so the columns should be of
     one order of magnitude; those of Eq. (5.7) are.

@@ -82,7 +82,7 @@ def fit(
     young_modulus: float | None = None,
     loss: Loss = "stress",
 ) -> LudwickFit:
-    """Fit Eq. (5.2) to a tensile test.
+    """Fit Ludwick's law to a tensile test.
 
     Each loss is a sum of squares over the rows: of ``stress - E strain**n``; of the difference of
     the logarithms; or, for "strain", of ``strain - (stress / E)**m`` with ``n = 1 / m``, the curve

@@ -19,7 +19,7 @@ SCALES = (1 * MPa, 50.0, 10 * MPa)
 
 
 def predictors(E: ArrayLike, MV: ArrayLike, TS: ArrayLike) -> Floats:
-    """Return the predictors of Eq. (5.7): E, the root of MV and the root of TS, made dimensionless.
+    """Return the predictors, Eq. (5.7): E, the root of MV and the root of TS, made dimensionless.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def predictors(E: ArrayLike, MV: ArrayLike, TS: ArrayLike) -> Floats:
 
 @final
 class FractionalPowerRegressor(RegressorMixin, BaseEstimator):  # type: ignore[misc]  # untyped base
-    """Least squares of Eq. (5.8), as a scikit-learn regressor.
+    """Least squares for the fractional power, as a scikit-learn regressor.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ class FractionalPowerRegressor(RegressorMixin, BaseEstimator):  # type: ignore[m
         self.fit_intercept = fit_intercept
 
     def fit(self, X: ArrayLike, y: ArrayLike) -> "FractionalPowerRegressor":
-        """Fit the coefficients by Eq. (5.4); X of shape (m, 3), y of shape (m,)."""
+        """Fit the coefficients x, Eq. (5.6), to X of shape (m, 3) and y of shape (m,)."""
         X, y = validate_data(self, X, y, dtype=np.float64, y_numeric=True, ensure_min_samples=2)
         columns = _powers(X, self.exponents, self.scales)
         if self.fit_intercept:
@@ -103,7 +103,7 @@ class FractionalPowerRegressor(RegressorMixin, BaseEstimator):  # type: ignore[m
         return self
 
     def predict(self, X: ArrayLike) -> Floats:
-        """Predict the fractional power by Eq. (5.8); X of shape (m, 3), result of shape (m,)."""
+        """Predict the fractional power, Eq. (5.8); X of shape (m, 3), result of shape (m,)."""
         check_is_fitted(self)
         X = validate_data(self, X, dtype=np.float64, reset=False)
         return _powers(X, self.exponents, self.scales) @ self.coef_ + self.intercept_

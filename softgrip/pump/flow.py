@@ -52,7 +52,7 @@ class PumpRun:
 
     @property
     def flow(self) -> float:
-        """Air flow of Eq. (4.2), m^3/s."""
+        """Air flow out of the syringe, m^3/s."""
         return flow(self.motor_speed, self.pump)
 
 

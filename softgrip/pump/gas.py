@@ -61,7 +61,7 @@ def gas_pressure(amount: Value, volume: Value, temperature: float = 293.15) -> V
 
 
 def capacity(pressure: Value, gas_volume: Value, compliance: float = 0.0) -> Value:
-    """Return the capacity C of Eq. (4.5) at one state: ``(V + P dV_f/dP) / P``.
+    """Return the capacity C that the gas has at one state: ``(V + P dV_f/dP) / P``.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def capacity(pressure: Value, gas_volume: Value, compliance: float = 0.0) -> Val
 def capacity_growth(
     pressure: Value, gas_volume: Value, compliance: float = 0.0, compliance_slope: float = 0.0
 ) -> Value:
-    """Return how the capacity changes with the volume pushed, the constant c of Eq. (4.7).
+    """Return how the capacity changes with the volume pushed, the constant c of the modified model.
 
     With dP/d(Qt) = 1/C, ``c = (d2V_f/dP2 - 2 V/P^2) / C``, of unit 1/Pa. So the bounds 0 and 1
     that the text sets on c have no meaning in SI; times the pressure, c is a pure number.
@@ -125,7 +125,7 @@ def closed_volume_pressure(
     compliance: float = 0.0,
     start_pressure: float = ATMOSPHERE,
 ) -> Value:
-    """Return the exact pressure of a closed charge of gas at one temperature, from Eq. (4.3).
+    """Return the exact pressure of a closed charge of gas at one temperature, Eq. (4.3).
 
     ``P (V_0 - s + K (P - P_0)) = P_0 V_0`` is solved for P, with a finger of constant compliance K.
 

@@ -39,7 +39,7 @@ def pressure_rate(flow: Value, capacity: Value) -> Value:
 
 
 def pressure(time: Value, flow: float, capacity: float, start_pressure: float = 0.0) -> Value:
-    """Return the pressure under a constant flow, the integral of Eq. (4.5).
+    """Return the pressure under a constant flow, the integral of `pressure_rate`.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def pressure(time: Value, flow: float, capacity: float, start_pressure: float = 
 
 
 def modified_capacity(time: Value, flow: float, capacity: float, growth: float) -> Value:
-    """Return the capacity that Eq. (4.7) puts in place of C_i: ``C_i + c Q_i t``.
+    """Return the capacity that the modified model puts in place of C_i: ``C_i + c Q_i t``.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def modified_capacity(time: Value, flow: float, capacity: float, growth: float) 
 
 
 def modified_pressure_rate(time: Value, flow: float, capacity: float, growth: float) -> Value:
-    """Return the rate of Eq. (4.7): ``Q_i / (C_i + c Q_i t)``, Pa/s.
+    """Return the rate of the modified model, Eq. (4.7): ``Q_i / (C_i + c Q_i t)``, Pa/s.
 
     Parameters and errors as for `modified_capacity`.
 
@@ -121,7 +121,7 @@ def modified_pressure_rate(time: Value, flow: float, capacity: float, growth: fl
 def modified_pressure(
     time: Value, flow: float, capacity: float, growth: float, start_pressure: float = 0.0
 ) -> Value:
-    """Return the pressure of Eq. (4.7): ``P_0 + ln(1 + c Q_i t / C_i) / c``.
+    """Return the pressure by the modified model: ``P_0 + ln(1 + c Q_i t / C_i) / c``.
 
     Parameters and errors as for `modified_capacity`; with c = 0 it is `pressure`.
 
@@ -143,7 +143,7 @@ def modified_pressure(
 
 
 def pressure_system(pump: Pump, capacity: float) -> control.StateSpace:
-    """Return Eq. (4.5), whose transfer function is Eq. (4.6), as a state space.
+    """Return the pump as a state space, whose transfer function is Eq. (4.6).
 
     Parameters
     ----------

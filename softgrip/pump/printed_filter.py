@@ -28,7 +28,9 @@ def printed_filter(
     sensor: float,
     angle: float = 0.0,
 ) -> KalmanFilter:
-    """Set up Eq. (4.8)-(4.10); no noise level is printed, so all are arguments.
+    """Set up the filter of the process, Eq. (4.8), and the measurement, Eq. (4.9), with Eq. (4.10).
+
+    No noise level is printed, so all are arguments.
 
     Parameters
     ----------
@@ -99,7 +101,7 @@ def run_printed(kalman: KalmanFilter, angle: ArrayLike) -> tuple[Floats, Floats]
 
 
 def open_loop_capacity(angle: ArrayLike, gain: float, capacity: float) -> Floats:
-    """Return what Eq. (4.8) makes of known angles: ``C_0 + k sum_{j<k} theta_j``.
+    """Return the capacity that the process makes of known angles: ``C_0 + k sum_{j<k} theta_j``.
 
     Parameters
     ----------
