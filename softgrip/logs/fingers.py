@@ -93,7 +93,7 @@ def read_runs(paths: Sequence[Path | str]) -> GripperLogs:
 
 
 def identify_finger(time: Floats, motor_angle: Floats, angle: Floats) -> Identified:
-    """Fit Eq. (6.9) to a finger, from the angle of the motor (rad) to that of the finger (rad).
+    """Fit a finger of second order, from the angle of the motor [rad] to that of the finger [rad].
 
     The motor angle stands for the pressure, which Eq. (6.14) makes proportional to it. A count of
     the pressure sensor of Section 6.4 is a quarter of what bends a finger to pi/4.
@@ -102,13 +102,13 @@ def identify_finger(time: Floats, motor_angle: Floats, angle: Floats) -> Identif
 
 
 def dynamics_of(found: Identified) -> FingerDynamics:
-    """Return the element of Eq. (6.16), with the input in rad/s, from an identified finger."""
+    """Return the element of P(s), with the input in rad/s, from an identified finger."""
     w = found.natural_frequency.value
     return FingerDynamics(2 * found.damping_ratio.value * w, w**2, found.gain.value * w**2)
 
 
 def identified_gripper(logs: GripperLogs) -> Gripper:
-    """Return P(s) of Eq. (6.16) from the mean of several runs in open loop, input in rad/s."""
+    """Return P(s) from the mean of several runs in open loop, input in rad/s."""
     mean, motor = logs.angles.mean(axis=0), logs.motor_angle.mean(axis=0)
     return Gripper(tuple(dynamics_of(identify_finger(logs.time, motor, angle)) for angle in mean))
 
@@ -130,7 +130,7 @@ def each_identified(logs: GripperLogs) -> list[list[FingerDynamics]]:
 
 
 def run_deviation(logs: GripperLogs, finger: int) -> tuple[Floats, Floats]:
-    """Return the left side of Eq. (6.18) for one finger, the mean of the runs being nominal.
+    """Return `deviation` for one finger, the mean of the runs being nominal.
 
     The command is the same in all runs, so that the ratio of two responses is that of the angles;
     their differences from sample to sample are taken, which come to rest.

@@ -50,7 +50,7 @@ def push() -> tuple[Floats, Floats]:
 
 
 def constant_capacity_error() -> float:
-    """Return (model - truth) / truth at the end of the push for Eq. (4.5) fitted up to `LOW`."""
+    """Return (model - truth) / truth at the push's end, constant capacity fitted up to `LOW`."""
     swept, pressure = push()
     low = pressure <= LOW
     capacity = float(swept[low] @ swept[low] / (swept[low] @ pressure[low]))
@@ -58,7 +58,7 @@ def constant_capacity_error() -> float:
 
 
 def modified_capacity_error() -> float:
-    """Return the (model - truth) / truth of largest size above `HIGH` for Eq. (4.7), integrated.
+    """Return the (model - truth) / truth of largest size above `HIGH`, for growing capacity.
 
     ``p = ln(1 + c q / C) / c`` in the swept volume q; C and c are fitted to the whole push, and c
     may come out negative.

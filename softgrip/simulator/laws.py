@@ -20,7 +20,7 @@ GAS_CONSTANT = 8.314462618
 def absolute_pressure(
     amount: Value, free_volume: Value, ballooning: float, atmosphere: float
 ) -> Value:
-    """Return the pressure of an ideal gas in a vessel that balloons, Eq. (4.3).
+    """Return the pressure of an ideal gas in a vessel that balloons.
 
     It solves ``P (V + b (P - P_atm)) = n R T`` for P.
 
@@ -68,7 +68,7 @@ def leak(gauge: Value, leakage: Value, atmosphere: float) -> Value:
 
 
 def settled_torque(angle: Value, finger: FingerParameters) -> Value:
-    """Return ``K theta**n``, odd, N m: the torque that holds an angle for good, Eq. (5.12)."""
+    """Return ``K theta**n``, odd, N m: the torque that holds an angle for good."""
     return finger.stiffness * angle * np.abs(angle) ** (finger.fractional_power - 1)
 
 

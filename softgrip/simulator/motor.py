@@ -33,7 +33,7 @@ def speed(start: Floats, command: Floats, elapsed: Floats, pump: PumpParameters)
 
 
 def travel(start: Floats, command: Floats, elapsed: Floats, pump: PumpParameters) -> Floats:
-    """Return how far the plunger travels while the motor does as `speed` says, Eq. (4.1).
+    """Return how far the plunger travels while the motor does as `speed` says.
 
     Parameters and shapes as in `speed`.
 

@@ -52,7 +52,7 @@ class PumpParameters:
 
     @property
     def advance(self) -> float:
-        """Travel of the plunger per angle of the motor, ``l / 2 pi`` of Eq. (4.1), m/rad."""
+        """Travel of the plunger per angle of the motor, ``l / 2 pi``, m/rad."""
         return self.lead / REV
 
 
