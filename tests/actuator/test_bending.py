@@ -22,7 +22,7 @@ DESIGN_1 = Section(20 * MM, 4 * MM, 30 * MM, 1.5 * MM)
 
 @given(st.floats(1, 3), st.floats(0.01, 0.1), st.floats(0.005, 0.05), st.floats(0.1, 50))
 def test_modified_moment_is_the_moment_of_ludwicks_stress(n, width, height, curvature):
-    """Stress ``(kappa y)**n`` over a rectangle, about its middle, by quadrature."""
+    """Eq. (3.8): stress ``(kappa y)**n`` over a rectangle, about its middle, by quadrature."""
     half = height / 2
     moment = 2 * width * quad(lambda y: y * (curvature * y) ** n, 0, half)[0]
     assert moment == pytest.approx(modified_moment(n, width, height) * curvature**n, rel=1e-8)
@@ -40,10 +40,21 @@ def test_bending_at_n_1_is_half_of_a_beam_under_a_constant_moment():
 
 
 def test_elongation_balances_the_pull_of_the_end():
-    """A bar of the wall's area under P A_c stretches by ``P A_c / (A_w E)``, here 0.9994."""
+    """Eq. (3.9): a bar of the wall's area stretches by ``P A_c / (A_w E)``, here 0.9994."""
     assert elongation(DESIGN_1, 0.15 * MPa, 0.34 * MPa) - 1 == pytest.approx(
         0.15 / 0.34 * 499.5 / 220.5, rel=1e-12
     )
+
+
+@given(st.floats(1, 3), st.floats(1e3, 2e5))
+def test_bending_is_the_curvature_summed_along_the_longer_finger(n, pressure):
+    """Eq. (3.10): a force T / L at the tip, whose lever falls from L to 0, by quadrature."""
+    moment, stiffness = torque(DESIGN_1, pressure), 0.34 * MPa * modified_moment(n, 0.03, 0.024)
+    longer = 94 * MM * (1 + pressure * 499.5 / 220.5 / (0.34 * MPa))
+    angle = longer * quad(lambda s: (moment * (1 - s) / stiffness) ** (1 / n), 0, 1)[0]
+    found = bending_angle(Finger(DESIGN_1, fractional_power=n), pressure)
+    # The curvature falls to 0 with an infinite slope, which costs the quadrature digits.
+    assert found == pytest.approx(angle, rel=1e-6)
 
 
 @given(st.floats(1, 3), st.floats(1e3, 2e5), st.floats(1.001, 10))

@@ -102,7 +102,7 @@ def test_objective_falls_with_the_wall_and_grows_with_the_width(problem):
 
 
 def test_differential_evolution_finds_nothing_better():
-    """An independent global search, on the four dimensions and with the band as a penalty."""
+    """Eq. (3.20) by a global search on the four dimensions, with the band as a penalty."""
     problem = DesignProblem(fractional_power=1.05, band=FrequencyBand(1.6, 1.8))
     design = optimal_design(problem)
     first, last = problem.product_range
@@ -153,8 +153,55 @@ def test_a_start_that_bends_backwards_is_taken():
     assert found.section.bottom == pytest.approx(0.004, rel=1e-6)
 
 
+def test_width_and_wall_left_to_the_designer_are_those_that_the_optimum_has():
+    """Eq. (6.8), a and b alone on a fine grid, does as well as the search over four dimensions."""
+    problem = DesignProblem(fractional_power=1.05, bounds=PRINTED, band=FrequencyBand(1.6, 1.8))
+    a, b = np.linspace(0.014, 0.020, 601)[:, None], np.linspace(0.002, 0.004, 201)
+    sections = Section(a, b, 0.030, 0.0015)
+    (first, last), values = problem.product_range, product(problem, sections)
+    good = (values >= first) & (values <= last) & (a + b >= 0.015) & (a + b <= 0.025)
+    best = np.where(good, objective(problem, sections), 0).max()
+    # Steps of 10 um, along a constraint that fixes a + b: some 1e-3 of the objective.
+    assert optimal_design(problem).objective == pytest.approx(best, rel=2e-3)
+    assert optimal_design(problem).objective >= best * (1 - 1e-6)
+
+
+@given(st.floats(1, 2.6), st.floats(0.1, 1.0), st.integers(0, 99))
+def test_the_band_of_products_is_the_band_of_frequencies(n, mass, seed):
+    """Eq. (3.21) with the ends of Eq. (3.23) holds where omega_n is between both frequencies."""
+    problem = DesignProblem(
+        fractional_power=n, band=FrequencyBand(2.0, 3.0, least_mass=mass, largest_mass=mass)
+    )
+    sections = _random_sections(replace(problem, band=None), 50, seed)
+    frequency = natural_frequency(problem.finger(sections), mass)
+    value, (first, last) = product(problem, sections), problem.product_range
+    inside = (first <= value) & (value <= last)
+    np.testing.assert_array_equal(inside, (frequency >= 2.0) & (frequency <= 3.0))
+
+
+def test_ends_of_the_band_by_hand():
+    """Eq. (3.23) at n = 1: ``1/2 * 4 * 3 * M omega**2 L**2``, each end with its mass."""
+    problem = DesignProblem(band=FrequencyBand(2.5, 3.5, least_mass=0.3, largest_mass=0.4))
+    expected = [6 * 0.3 * 2.5**2 * 0.094**2, 6 * 0.4 * 3.5**2 * 0.094**2]
+    assert problem.product_range == pytest.approx(expected)
+
+
+@given(st.floats(1, 2.6), st.integers(0, 99))
+def test_no_section_of_the_box_is_stiffer_or_softer_than_its_corners(n, seed):
+    """Eq. (3.22): the product lies between those of the smallest and the largest a, b and w."""
+    problem = DesignProblem(fractional_power=n)
+    drawn = product(problem, _random_sections(problem, 500, seed))
+    bounds = problem.bounds
+    ends = [
+        product(problem, Section(*(getattr(bounds, name)[end] for name in DIMENSIONS)))
+        for end in (0, 1)
+    ]
+    assert ends[0] <= drawn.min()
+    assert drawn.max() <= ends[1]
+
+
 def test_the_printed_optimum_hits_its_bounds():
-    """Table 3.1's b = 4.0 mm follows if 4 mm is its bound; with the stated 5 mm it is 5."""
+    """Eq. (3.17) gives Table 3.1's b = 4.0 mm if that is its bound; with the stated 5 it is 5."""
     stated = optimal_design(DesignProblem())
     printed = optimal_design(DesignProblem(bounds=PRINTED))
     assert stated.section.bottom == pytest.approx(0.005, rel=1e-6)

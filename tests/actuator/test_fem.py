@@ -36,6 +36,7 @@ def ends(length):
 
 
 def test_solid_cantilever_is_timoshenkos():
+    """And a prop holds the tip of one under a uniform load with 3/8 of it: Eq. (3.24)."""
     L, h, w, E = 10.0, 1.0, 0.8, 2.0
     mesh = box_mesh(Box((0, -h / 2, 0), (L, h / 2, w / 2)), 0.5).with_boundaries(
         ends(L) | {"pressure": lambda x: np.isclose(x[1], h / 2)}

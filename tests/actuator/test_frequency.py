@@ -1,8 +1,10 @@
 """Natural frequency, Eq. (3.14) to (3.19)."""
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
 
 from softgrip.actuator.bending import Finger
 from softgrip.actuator.frequency import (
@@ -18,11 +20,46 @@ DESIGN_1 = Section(0.02, 0.004, 0.03, 0.0015)
 
 
 def test_spring_at_n_1_is_that_of_a_tip_loaded_cantilever():
-    """``theta = F L**2 / (2 E I)`` of the textbook."""
+    """Eq. (3.14) at n = 1: ``theta = F L**2 / (2 E I)`` of the textbook."""
     inertia = 0.03 * 0.024**3 / 12
     assert spring_constant(Finger(DESIGN_1)) == pytest.approx(
         2 * 0.34e6 * inertia / 0.094**2, rel=1e-14
     )
+
+
+def test_a_finger_let_go_swings_at_its_natural_frequency():
+    """Eq. (3.15) at n = 1, integrated until the finger is straight: a quarter of a period."""
+    inertia, mass = 0.03 * 0.024**3 / 12, 0.35
+    stiffness = 2 * 0.34e6 * inertia / 0.094**2
+
+    def straight(_t, state):
+        return state[0]
+
+    straight.terminal = True
+    swing = solve_ivp(
+        lambda _t, state: [state[1], -stiffness / mass * state[0]],
+        *((0, 2), [0.5, 0.0]),
+        events=straight,
+        rtol=1e-10,
+        atol=1e-12,
+    )
+    quarter = swing.t_events[0][0]
+    assert natural_frequency(Finger(DESIGN_1), mass) == pytest.approx(np.pi / 2 / quarter, rel=1e-8)
+
+
+@given(st.floats(1, 3), st.floats(0.5, 2), st.floats(0.5, 2))
+def test_squared_frequency_goes_with_the_powers_of_its_factors(n, factor, scale):
+    """Eq. (3.18): as E, w, 1 / M, the height to n + 2 and the length to -(n + 1)."""
+
+    def squared(modulus=1.0, width=1.0, height=1.0, mass=1.0, length=1.0):
+        section = Section(0.02 * height, 0.004 * height, 0.03 * width, 0.0015)
+        finger = Finger(section, 0.094 * length, 0.34e6 * modulus, n)
+        return natural_frequency(finger, 0.35 * mass) ** 2
+
+    base = squared()
+    assert squared(modulus=factor, mass=scale) / base == pytest.approx(factor / scale)
+    assert squared(width=factor, height=scale) / base == pytest.approx(factor * scale ** (n + 2))
+    assert squared(length=factor) / base == pytest.approx(factor ** -(n + 1))
 
 
 @given(st.floats(1, 3), st.floats(0.01, 1.0), st.floats(0.012, 0.025), st.floats(0.01, 0.04))

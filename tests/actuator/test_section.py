@@ -45,6 +45,7 @@ def _integrals(section, pressure):
 
 @given(sections())
 def test_torque_is_the_difference_of_the_two_integrals(section):
+    """Eq. (3.4): moments, Eq. (3.2), by quadrature, of chamber and wall, Eq. (3.5) and (3.6)."""
     pushed, pulled = _integrals(section, 1e5)
     # The difference may be far smaller than its terms: the tolerance is of these.
     assert torque(section, 1e5) == pytest.approx(pushed - pulled, abs=1e-9 * (pushed + abs(pulled)))
@@ -58,6 +59,12 @@ def test_wall_tension_balances_the_pressure(section):
     whole = section.width * section.height
     solid = whole - chamber_area(section)
     assert wall_area(section) == pytest.approx(solid, rel=1e-12)
+
+
+def test_wall_tension_of_design_1_by_hand():
+    """Eq. (3.3): bottom, two sides and top of the wall, as four rectangles in mm."""
+    wall = 4 * 30 + 2 * 1.5 * 18.5 + 1.5 * 30
+    assert wall_stress_ratio(DESIGN_1) == pytest.approx(18.5 * 27 / wall, rel=1e-12)
 
 
 def test_up_to_half_a_newton_metre_at_a_quarter_megapascal():

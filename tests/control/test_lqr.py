@@ -22,6 +22,8 @@ from softgrip.control.lqr import (
 from softgrip.control.lqr_limit import closed_loop_poles
 from softgrip.dynamics.second_order import SecondOrder, full_state_space
 from softgrip.errors import InvalidInputError
+from softgrip.pump.flow import Pump
+from softgrip.pump.pressure import pressure_system
 
 fingers = st.builds(SecondOrder, st.floats(0.5, 10), st.floats(0.05, 2))
 designs = st.builds(
@@ -52,7 +54,7 @@ def test_first_gain_is_the_root_of_the_weight(finger, weights):
 
 
 def test_printed_gain_by_hand():
-    # phi = s^3 + (4.004 + k3) s^2 + (8.1796 + k2) s + 10, matched with the spectral factor.
+    """Eq. (3.30): phi = s^3 + (4.004 + k3) s^2 + (8.1796 + k2) s + 10 is the spectral factor."""
     k1, k2, k3 = lqr_gain(FINGER, Weights())
     a, b, c = 2 * 0.7 * 2.86 + k3, 2.86**2 + k2, k1
     assert c == pytest.approx(10)
@@ -112,6 +114,7 @@ def test_linear_loop_leaves_no_error(finger, weights):
 
 
 def test_canonical_form_is_the_full_model_in_other_states():
+    """Eq. (3.26) and (3.27) with Eq. (3.28) do as the model of pump, angle and rate does."""
     finger, pump_gain, speed = SecondOrder(2.86, 0.7, 1.5e-4), 980.0, 31.4
     full, gain = full_state_space(finger, pump_gain), input_gain(finger, pump_gain, speed)
     T = derivatives_from_full_state(finger)
@@ -121,6 +124,25 @@ def test_canonical_form_is_the_full_model_in_other_states():
     np.testing.assert_allclose(full.C, other.C @ T / gain, atol=1e-12)
     for s in (0.3j, 2j, 1 + 5j):
         assert speed * full(s) == pytest.approx(other(s))
+
+
+def test_numerator_by_hand():
+    """Eq. (3.25) with l = 8 mm, A_s = 6.61 cm^2, C_s = 1 mL/kPa, 5 rev/s and c / M = 1e-3."""
+    finger = SecondOrder(2.86, 0.7, gain=1e-3 / 2.86**2)
+    pump = pressure_system(Pump(6.61e-4, 0.008), 1e-9)
+    found = input_gain(finger, pump.B.item(), 10 * np.pi)
+    assert found == pytest.approx(0.008 * 6.61e-4 * 5 / 1e-9 * 1e-3)
+    s = 0.4 + 1.5j
+    printed = found / (s**3 + 2 * 0.7 * 2.86 * s**2 + 2.86**2 * s)
+    assert canonical_form(finger, found)(s) == pytest.approx(printed)
+
+
+def test_printed_weights():
+    """Eq. (3.29) with p = 100: a rate of 1 rad/s costs three tenths of 1 rad, acceleration none."""
+    Q = Weights().Q
+    np.testing.assert_array_equal(Q, [[100, 0, 0], [0, 30, 0], [0, 0, 0]])
+    for state, cost in (((1, 0, 0), 100), ((0, 1, 0), 30), ((0, 0, 9), 0)):
+        assert np.array(state) @ Q @ np.array(state) == pytest.approx(cost)
 
 
 def test_mapping_gives_the_derivatives_of_a_motion():

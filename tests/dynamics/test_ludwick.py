@@ -32,12 +32,23 @@ def test_power_one_is_twice_the_linear_model_to_which_it_is_said_to_degrade():
 
 @given(n=powers)
 def test_section_integral_is_half_of_the_print_and_equals_chapter_3(n):
-    # Ludwick's stress |y|^n over the section: the integral of b |y|^(1 + n) dy.
+    """Eq. (5.14) is twice the integral of Ludwick's stress, b |y|^(1 + n) dy, over the section."""
     b, h = SIZES["width"], SIZES["height"]
     integral = 2 * quad(lambda y: b * (y * h) ** (1 + n) * h, 0, 0.5)[0]
     chapter_3 = 0.5 ** (1 + n) / (2 + n) * b * h ** (2 + n)  # Eq. (3.8)
     assert integral == pytest.approx(chapter_3, rel=1e-6)
     assert modified_moment(n, **SIZES) == pytest.approx(2 * integral, rel=1e-6)
+
+
+@given(n=powers, force=st.floats(0.1, 10))
+def test_spring_is_that_of_a_cantilever_whose_curvature_is_summed(n, force):
+    """Eq. (5.13): a force at the tip, whose lever falls from L to 0, by quadrature."""
+    E, L = 0.34e6, 0.094
+    stiffness = E * modified_moment(n, **SIZES)
+    angle = L * quad(lambda s: (force * L * (1 - s) / stiffness) ** (1 / n), 0, 1)[0]
+    # The curvature falls to 0 with an infinite slope, which costs the quadrature digits.
+    found = spring_constant(E, n, length=L, **SIZES)
+    assert restoring_force(angle, found, n) == pytest.approx(force, rel=1e-5)
 
 
 @given(n=powers, angle=st.floats(-4, 4))
@@ -47,8 +58,21 @@ def test_spring_is_odd(n, angle):
 
 @given(n=powers, angle=st.floats(0.01, 4))
 def test_at_rest_the_force_is_the_static_law(n, angle):
+    """Eq. (5.12)."""
     finger = LudwickFinger(0.5, 1.0, 2.0, n)
     assert acceleration(finger, angle, 0.0, 2.0 * angle**n) == pytest.approx(0.0, abs=1e-9)
+
+
+@given(n=powers, mass=st.floats(0.1, 2), time=st.floats(0.1, 3))
+def test_the_force_of_a_given_motion_gives_its_acceleration_back(n, mass, time):
+    """Eq. (5.15) for ``theta = t**3``, by hand; divided by M_eq it is Eq. (3.11)."""
+    angle, rate, second = time**3, 3 * time**2, 6 * time
+    force = mass * second + 0.4 * rate + 2.0 * angle**n
+    assert acceleration(LudwickFinger(mass, 0.4, 2.0, n), angle, rate, force) == pytest.approx(
+        second, rel=1e-6
+    )
+    divided = LudwickFinger(1.0, 0.4 / mass, 2.0 / mass, n)
+    assert acceleration(divided, angle, rate, force / mass) == pytest.approx(second, rel=1e-6)
 
 
 def test_integrator_law_is_the_acceleration():
@@ -81,6 +105,7 @@ def fingers(runs):
 
 
 def test_step_responses_agree_with_a_tight_reference_to_a_millionth():
+    """Eq. (5.16) as it stands, by SciPy's integrator of eighth order."""
     finger, force = fingers(12)
     times = np.linspace(0, 5, 5001)
     ((_, found),) = step_responses(finger, force, times, 0.025, runs=12)

@@ -47,6 +47,22 @@ def test_rates_lead_back_to_the_system(frequency, damping):
     assert again.gain == 3.0
 
 
+@pytest.mark.parametrize(("a", "b"), [(1.0, 4.0), (2.0, 2.0), (2 + 3j, 2 - 3j)])
+def test_system_of_given_rates_solves_the_equation_with_their_sum_and_product(a, b):
+    """Eq. (4.12), integrated for a force of ``a b M_eq``."""
+    total, product = (a + b).real, (a * b).real
+    solved = solve_ivp(
+        lambda _t, y: [y[1], product * (1 - y[0]) - total * y[1]],
+        *((0, 6), [0, 0]),
+        t_eval=TIME,
+        rtol=1e-10,
+        atol=1e-12,
+    )
+    found = SecondOrder.from_rates(a, b)
+    response = step_response(TIME, found.natural_frequency, found.damping_ratio)
+    np.testing.assert_allclose(response, solved.y[0], atol=1e-8)
+
+
 def test_small_rate_of_a_strongly_damped_system_keeps_its_digits():
     # zeta - sqrt(zeta**2 - 1) taken as it stands is 0 here.
     slow = SecondOrder(1.0, 1e9).rates[1]
@@ -81,7 +97,7 @@ def test_step_response_when_critically_damped():
 
 
 def test_step_response_when_overdamped():
-    # Eq. (4.11) with a = 1, b = 4: C_0 = 1, C_1 = -b / (b - a), C_2 = a / (b - a).
+    """Eq. (4.11) with a = 1, b = 4: C_0 = 1, C_1 = -b / (b - a), C_2 = a / (b - a)."""
     expected = 1 - 4 / 3 * np.exp(-TIME) + 1 / 3 * np.exp(-4 * TIME)
     np.testing.assert_allclose(step_response(TIME, 2.0, 1.25), expected, atol=1e-12)
 
@@ -115,6 +131,7 @@ def test_parameters_broadcast_over_runs():
 @pytest.mark.parametrize("damping", [0.0, 0.3, 1.0, 3.0])
 @pytest.mark.parametrize("hold", ["linear", "zero"])
 def test_sampled_response_agrees_with_an_integrator(damping, hold):
+    """Eq. (4.13) under a pressure that is held or ramps between samples."""
     rng = np.random.default_rng(2)
     t = np.cumsum(rng.uniform(0.02, 0.3, 30))
     p = rng.normal(size=30)
@@ -165,6 +182,7 @@ def test_sampled_response_refuses(time, pressure, hold):
 
 
 def test_state_space_has_the_poles_and_the_static_gain():
+    """Eq. (4.14): and so it has the step response in closed form."""
     finger = SecondOrder(2.86, 0.7, 2.4e-5)
     system = state_space(finger)
     np.testing.assert_allclose(np.sort(system.poles()), np.sort(-np.array(finger.rates)))
@@ -175,7 +193,7 @@ def test_state_space_has_the_poles_and_the_static_gain():
 
 @given(frequency=frequencies, damping=dampings, pump=st.floats(1e2, 1e5), s=st.floats(0.1, 30))
 def test_full_model_is_the_product_of_pump_and_finger(frequency, damping, pump, s):
-    # Eq. (4.15) without the motor speed, which is the input.
+    """Eq. (4.15) without the motor speed, which is the input."""
     assume(abs(s - frequency) > 1e-3)
     finger = SecondOrder(frequency, damping, 2.4e-5)
     denominator = (1j * s) ** 3 + 2 * damping * frequency * (1j * s) ** 2 + frequency**2 * 1j * s

@@ -9,7 +9,7 @@ from softgrip.errors import InvalidInputError
 from softgrip.gripper.gripper_loop import noise_gain, run_gripper
 from softgrip.gripper.internal_model import InternalModelController
 from softgrip.gripper.inversion import filtered_inverse, mean_inverse
-from softgrip.gripper.plant import PRINTED, state_space
+from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, state_space
 from softgrip.gripper.reach import project
 from softgrip.gripper.shaping_filter import FAST, filter_state_space
 from softgrip.gripper.synchronization import synchronization_error
@@ -78,6 +78,26 @@ def test_a_late_command_is_late():
     runs = [run_gripper(PRINTED, LOOP, duration=1.0, delay_samples=d) for d in (0, 2)]
     assert runs[1].commands[:2] == pytest.approx(0)
     assert runs[1].commands[2] == pytest.approx(runs[0].commands[0])
+
+
+def test_real_fingers_do_as_the_model_and_an_error_of_it():
+    """Eq. (6.21): ``P u + Delta P u`` in two stages, Delta_i = P-tilde_i / P_i - 1 of order two."""
+    real = ((2.9, 3.4, 7.5), (2.3, 3.2, 8.0))
+    gripper = Gripper(tuple(FingerDynamics(*numbers) for numbers in real))
+    run = run_gripper(gripper, LOOP, duration=3.0)
+    held = np.append(np.repeat(run.commands, 20), run.commands[-1])
+    # Held commands are ramps of the pump: linear between the points, as the solver takes them.
+    pumped = np.cumsum(np.insert(held[:-1] * 0.005, 0, 0.0))
+    for k, (finger, (damping, stiffness, gain)) in enumerate(
+        zip(PRINTED.fingers, real, strict=True)
+    ):
+        own = np.array([1, finger.damping, finger.stiffness])
+        model = control.tf(finger.gain, own)
+        ratio = control.tf(gain / finger.gain * own, [1, damping, stiffness])
+        y = control.forced_response(model, run.time, pumped).outputs
+        error = control.forced_response(ratio - 1, run.time, y).outputs
+        # The second stage takes y as linear between points of 5 ms.
+        assert y + error == pytest.approx(run.angles[k], abs=1e-4)
 
 
 def test_impossible_runs_are_refused():

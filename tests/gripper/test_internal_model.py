@@ -89,6 +89,26 @@ def test_linear_matrices_give_the_same_commands():
     assert found == pytest.approx(run(controller, 20))
 
 
+def test_feedback_makes_up_for_an_error_within_the_image():
+    """Eq. (6.23) where H is 1: both fingers a fifth stronger than the model, Delta_P = 0.2."""
+    linear = controller_matrices(PRINTED, mean_inverse(PRINTED), H).linear()
+    z = np.exp(1e-3j * 0.1)  # 0.001 rad/s
+    to_command = linear(z)
+    back, ahead = to_command[:, :2], to_command[:, 2:]
+    system = state_space(PRINTED)
+    A, B, C, *_ = cont2discrete((system.A, system.B, system.C, system.D), 0.1, "zoh")
+    P = C @ np.linalg.solve(z * np.eye(len(A)) - A, B)
+    target = project(PRINTED, [1.0, 1.0]).reached
+    # From targets and angles to u; without an error of the model u is u_ff.
+    nominal = (ahead @ target / (1 - back @ P)[0, 0]).item()
+    command = (ahead @ target / (1 - 1.2 * back @ P)[0, 0]).item()
+    u_fb = nominal - command
+    left, right = P[:, 0] * u_fb, 0.2 * P[:, 0] * (nominal - u_fb)
+    # H is 1 but for 0.001 rad/s over its crossover of 4.8 rad/s.
+    assert np.abs(left - right).max() < 1e-3 * np.abs(left).max()
+    assert nominal / command == pytest.approx(1.2, rel=1e-3)
+
+
 def test_a_batch_is_its_runs():
     angles = np.random.default_rng(0).normal(size=(8, 2, 3))
     together = InternalModelController(PRINTED, TARGET, mean_inverse(PRINTED), H, limit=30)

@@ -26,6 +26,7 @@ def inverses(gripper):
 @settings(max_examples=25)
 @given(GRIPPERS, st.floats(0.1, 10), st.floats(-0.5, 3))
 def test_each_is_a_left_inverse(gripper, frequency, decay):
+    """Eq. (6.19) solved for U: of the column times U each gives U back."""
     s = decay + 1j * frequency
     column = np.ravel(state_space(gripper)(s))
     for inverse in inverses(gripper):
@@ -73,6 +74,7 @@ def test_identical_fingers_have_one_inverse():
 @settings(max_examples=25)
 @given(GRIPPERS, st.floats(0.1, 30), st.sampled_from([FAST, SLOW]))
 def test_filtered_inverse_is_the_product(gripper, frequency, printed):
+    """Eq. (6.20)."""
     low, s = filter_state_space(*printed), 0.3 + 1j * frequency
     for inverse in inverses(gripper):
         whole = filtered_inverse(inverse, low)

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from softgrip.errors import InvalidInputError, SoftgripError
 from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, state_space
+from softgrip.gripper.printed_loop import equal_targets, run_printed
 from softgrip.gripper.reach import (
     UnreachableTargetError,
     direction,
@@ -22,6 +23,7 @@ GRIPPERS = st.lists(FINGERS, min_size=2, max_size=5).map(lambda f: Gripper(tuple
 @settings(max_examples=30)
 @given(GRIPPERS, st.floats(0.1, 20), st.randoms(use_true_random=False))
 def test_projection_is_least_squares(gripper, frequency, random):
+    """Eq. (6.24) and (6.25); and at any frequency the distance from the image, Eq. (6.2)."""
     target = np.array([random.uniform(0.1, 1) for _ in gripper.fingers])
     found = project(gripper, target)
     column = gripper.velocity_gains[:, None]
@@ -33,6 +35,49 @@ def test_projection_is_least_squares(gripper, frequency, random):
     best = np.linalg.lstsq(column, target.astype(complex), rcond=None)[0]
     left = np.linalg.norm(target - column @ best) / np.linalg.norm(target)
     assert outside_share(gripper, target, frequency) == pytest.approx(left, abs=1e-6)
+
+
+@settings(max_examples=30, deadline=None)
+@given(GRIPPERS, st.floats(0.1, 20))
+def test_direction_is_the_column_without_the_pump(gripper, frequency):
+    """Eq. (6.1) by the realization with the pump, times s: the fingers alone, Eq. (6.12)."""
+    s = 1j * frequency
+    column = s * np.ravel(state_space(gripper)(s))
+    assert direction(gripper, frequency) == pytest.approx(column / np.linalg.norm(column))
+
+
+@pytest.mark.parametrize("frequency", [0.5, 2.0, 10.0])
+@pytest.mark.parametrize(("poles", "solvable"), [((2.0, 3.0), True), ((2.2, 3.0), False)])
+def test_a_target_is_reached_where_it_adds_nothing_to_the_rank(frequency, poles, solvable):
+    """Eq. (6.3) by singular values, for fingers of one pole pair and for others."""
+    gripper = Gripper((FingerDynamics(2.0, 3.0, 5.0), FingerDynamics(*poles, 8.0)))
+    target = np.array([5.0, 8.0])
+    column = state_space(gripper)(1j * frequency)
+    both = np.column_stack([column / np.linalg.norm(column), target / np.linalg.norm(target)])
+    assert (np.linalg.matrix_rank(both, tol=1e-6) == 1) == solvable
+    assert (outside_share(gripper, target, frequency) < 1e-6) == solvable
+
+
+@settings(max_examples=30, deadline=None)
+@given(GRIPPERS, st.floats(0.1, 2.0))
+def test_what_is_reachable_keeps_the_rank_at_one(gripper, angle):
+    """Eq. (6.7) at rest, by singular values; equal angles of unequal fingers do not keep it."""
+    wanted = np.full(len(gripper.fingers), angle)
+    column = gripper.velocity_gains / np.linalg.norm(gripper.velocity_gains)
+    reached = reachable(gripper, wanted, tolerance=1.0)
+    assert np.linalg.matrix_rank(np.column_stack([column, reached]), tol=1e-9) == 1
+    alike = np.ptp(column) < 1e-6
+    assert alike or np.linalg.matrix_rank(np.column_stack([column, wanted]), tol=1e-9) == 2
+
+
+@pytest.mark.parametrize(
+    ("angle", "printed"), [(np.pi / 3, (0.303, 0.357)), (np.pi / 4, (0.227, 0.268))]
+)
+def test_printed_loops_end_at_the_printed_left_sides(angle, printed):
+    """Eq. (6.26) (with the text's 0.357 for its 0.35) and Eq. (6.27), by a run of the loop."""
+    run = run_printed(angle=angle, duration=12.0)
+    assert run.angles[:, -1] == pytest.approx(equal_targets(angle), rel=1e-3)
+    assert equal_targets(angle) / np.pi == pytest.approx(np.array(printed), abs=1.6e-3)
 
 
 @pytest.mark.parametrize(

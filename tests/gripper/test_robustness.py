@@ -32,7 +32,7 @@ def test_with_the_printed_inverse_it_is_h_times_the_mean_weight():
 
 @pytest.mark.parametrize("make", [mean_inverse, moore_penrose_inverse])
 def test_it_is_the_least_perturbation_that_can_make_the_loop_singular(make):
-    """``det(I + Delta W P H P-dagger)`` is 0 for the worst phases of that size, not for less."""
+    """Eq. (6.17): ``det(I + Delta W P H P-dagger)`` is 0 for the worst phases, not for less."""
     w, inverse = 3.0, make(PRINTED)
     s = 1j * w
     matrix = np.outer(np.ravel(state_space(PRINTED)(s)), inverse(s) * H(s).item()) * 0.5
@@ -55,6 +55,29 @@ def test_nominal_poles_are_those_of_filter_plant_and_model():
     expected = expected[np.abs(expected) > 1e-9]
     assert np.sort(found.poles.real) == pytest.approx(np.sort(expected.real), abs=1e-5)
     assert found.margin == pytest.approx(2.45 / 2)
+
+
+def test_poles_with_other_fingers_are_the_roots_of_the_loops_polynomial():
+    """Eq. (6.22) with ``u_fb = H P-dagger (y - P u)``: 1 - H + H P-dagger P-tilde = 0, by hand."""
+    others = ((2.9, 3.4, 7.5), (2.3, 3.2, 8.0))
+    top, low = (np.array(p) for p in FAST)
+    model = [np.array([1, f.damping, f.stiffness]) for f in PRINTED.fingers]
+    real = [np.array([1, damping, stiffness]) for damping, stiffness, _ in others]
+    asked = [
+        gain / f.gain / 2 * np.polymul(model[k], real[1 - k])
+        for k, (f, (_, _, gain)) in enumerate(zip(PRINTED.fingers, others, strict=True))
+    ]
+    loop = np.polyadd(
+        np.polymul(np.polysub(low, top), np.polymul(*real)),
+        np.polymul(top, np.polyadd(*asked)),
+    )
+    fingers = Gripper(tuple(FingerDynamics(*numbers) for numbers in others))
+    found = continuous_stability(PRINTED, fingers, MEAN, H).poles
+    # The model's own poles are there too: the inverse has zeros upon them.
+    expected = np.concatenate([np.roots(loop), *[np.roots(q) for q in model]])
+    assert found.size == expected.size == 14
+    for pole in expected:
+        assert np.abs(found - pole).min() < 1e-4 * abs(pole)
 
 
 def test_nominal_sampled_margin_is_the_slowest_pole():

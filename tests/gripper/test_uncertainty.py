@@ -27,7 +27,7 @@ def family(points=3):
 
 
 def test_deviation_of_a_single_finger_by_hand():
-    """At low frequency only the stiffness counts: 1 / 1.059 - 1 and 1 / 0.941 - 1."""
+    """Eq. (6.18): far down only the stiffness counts, 1 / 1.059 - 1 and 1 / 0.941 - 1."""
     nominal, fingers = family()
     found = deviation([finger_response(f, 1e-4) for f in fingers], finger_response(nominal, 1e-4))
     assert found == pytest.approx(1 / 0.941 - 1, rel=1e-3)
@@ -87,6 +87,7 @@ def test_the_printed_band_reaches_beyond_what_100_ms_can_show():
 
 
 def test_parameter_bounds_are_about_the_mean():
+    """Eq. (6.13) by hand."""
     fingers = [FingerDynamics(a, b, 1.0) for a, b in ((2.0, 3.0), (2.2, 3.3), (2.7, 3.0))]
     assert parameter_bounds(fingers) == pytest.approx((2.7 / 2.3 - 1, 3.3 / 3.1 - 1))
 

@@ -17,6 +17,7 @@ powers = st.floats(0.5, 3.0)
 
 @given(E=moduli, strain=st.floats(-5, 5))
 def test_power_one_is_hooke(E, strain):
+    """Eq. (5.1) is Eq. (5.2) with n = 1."""
     assert ludwick.stress(strain, E, 1.0) == pytest.approx(hooke.stress(strain, E))
 
 
@@ -28,6 +29,14 @@ def test_law_is_odd(E, n, strain):
 @given(E=moduli, n=powers)
 def test_modulus_is_the_stress_at_strain_one(E, n):
     assert ludwick.stress(1.0, E, n) == pytest.approx(E)
+
+
+@given(E=moduli, n=powers)
+def test_in_logarithms_the_law_is_a_line_whose_slope_is_the_power(E, n):
+    """Eq. (5.2), by a straight line through 20 decades of strain."""
+    strain = np.geomspace(1e-18, 1e2, 9)
+    slope, constant = np.polyfit(np.log(strain), np.log(ludwick.stress(strain, E, n)), 1)
+    assert (slope, np.exp(constant)) == pytest.approx((n, E), rel=1e-8)
 
 
 def test_array_gives_what_floats_give():

@@ -32,6 +32,7 @@ def test_scikit_learn_estimator(estimator, check):
 
 @given(seed=st.integers(0, 999), p=st.integers(1, 5), extra=st.integers(0, 20))
 def test_normal_equations_agree_with_lstsq(seed, p, extra):
+    """Eq. (5.3) by another method; what Eq. (5.4) leaves is at right angles to the columns."""
     random = np.random.default_rng(seed)
     A, y = random.normal(size=(p + 5 + extra, p)), random.normal(size=p + 5 + extra)
     x = normal_equations(A, y)
@@ -40,9 +41,23 @@ def test_normal_equations_agree_with_lstsq(seed, p, extra):
 
 
 def test_predictors_of_the_first_row_of_the_table():
+    """Eq. (5.7) by hand."""
     expected = [0.26, np.sqrt(18 / 50), np.sqrt(1.99 / 10)]
     np.testing.assert_allclose(predictors(0.26e6, 18, 1.99e6), expected)
     np.testing.assert_allclose(predictors(*X.T)[0], expected)
+
+
+@given(x=st.tuples(*[st.floats(-5, 5)] * 3))
+def test_powers_that_some_coefficients_made_give_them_back(x):
+    """Eq. (5.6): without error in y the fit finds x."""
+    found = FractionalPowerRegressor().fit(X, predictors(*X.T) @ np.array(x)).coef_
+    np.testing.assert_allclose(found, x, atol=1e-9)
+
+
+def test_prediction_is_the_sum_of_three_terms_by_hand():
+    """Eq. (5.8) for 0.5 MPa, 12.5 Pa s and 2.5 MPa: half of each coefficient."""
+    model = FractionalPowerRegressor().fit(X, Y)
+    assert model.predict([[0.5e6, 12.5, 2.5e6]]) == pytest.approx([model.coef_.sum() / 2])
 
 
 @given(viscosity=factors, strength=factors)

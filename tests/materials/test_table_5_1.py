@@ -24,7 +24,7 @@ def test_row_is_in_si():
 
 
 def test_fractional_powers_are_reciprocals_of_two_decimals():
-    # The printed n were read off as m = 1/n with two decimals; a misread digit would show here.
+    """Eq. (5.5): they were read off as m = 1/n; a misread digit would show here."""
     n = table.fractional_powers(table.table_5_1().values())
     m = np.round(1 / n, 2)
     np.testing.assert_array_equal(np.round(1 / m, 3), n)

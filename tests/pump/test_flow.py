@@ -16,6 +16,7 @@ positive = st.floats(1e-6, 1e3)
 
 @given(lead=positive)
 def test_one_turn_moves_the_slider_by_the_lead(lead):
+    """Eq. (4.1)."""
     assert slider_speed(2 * pi, lead) == pytest.approx(lead)
 
 
@@ -53,7 +54,7 @@ def test_each_set_of_fig_4_3_changes_one_parameter_of_the_default():
 
 
 def test_default_flow_in_litres_by_hand():
-    # 1.65 turns of 8 mm a second over 6.61 cm^2
+    """Eq. (4.2): 1.65 turns of 8 mm a second over 6.61 cm^2."""
     assert PARAMETER_SETS["default"].flow == pytest.approx(1.65 * 0.8 * 6.61 * 1e-6)
     assert PARAMETER_SETS["default"].motor_speed == pytest.approx(1.65 * REV)
 

@@ -25,7 +25,7 @@ compliances = st.floats(0, 1e-9)
 
 
 def test_molar_volume_at_standard_conditions():
-    # CODATA: 22.413 969 54 L/mol at 273.15 K and 101.325 kPa
+    """Eq. (4.4) against CODATA: 22.413 969 54 L/mol at 273.15 K and 101.325 kPa."""
     assert gas_pressure(1.0, 22.41396954e-3, 273.15) == pytest.approx(ATMOSPHERE, rel=1e-9)
 
 
@@ -44,6 +44,8 @@ def test_exact_pressure_is_that_of_eq_4_4_for_the_same_amount(V, fraction):
 
 @given(V=volumes, fraction=st.floats(0, 0.9), K=compliances)
 def test_elastic_volume_solves_its_equation(V, fraction, K):
+    """Eq. (4.3): the same ``P V`` in a finger that gives way, by a root finder."""
+
     def excess(P):
         return P * (V - fraction * V + K * (P - ATMOSPHERE)) - ATMOSPHERE * V
 

@@ -33,6 +33,7 @@ def angles(n, seed=0):
 
 @pytest.mark.parametrize("samples", [2, 10, 400])
 def test_printed_matrices_have_rank_one_however_long_the_record(samples):
+    """Eq. (4.10): its matrices have no way from the capacity to what is measured."""
     kalman = printed_filter(K, **LEVELS)
     F = np.tile(kalman.F, (samples, 1, 1))
     assert observable_rank(F, kalman.H, SCALE) == 1
@@ -65,6 +66,7 @@ def test_two_capacities_leave_the_same_measurements_and_innovations():
 
 
 def test_filter_agrees_with_the_joint_gaussian():
+    """Eq. (4.8) and (4.9) written out for all samples, and conditioned at once."""
     measured = angles(8)
     kalman = printed_filter(K, **LEVELS)
     F, b = np.tile(kalman.F, (7, 1, 1)), np.zeros((7, 2))
