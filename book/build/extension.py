@@ -1,4 +1,4 @@
-"""The Sphinx extension of the book: scripts without a network, stale pages, numbers."""
+"""The Sphinx extension of the book: scripts without a network, stale pages, numbers, links."""
 
 import json
 import os
@@ -8,7 +8,7 @@ from typing import Any
 from jupyter_cache import get_cache
 from sphinx.application import Sphinx
 
-from book.build import api, numbering, tracing, vendor
+from book.build import api, equations, numbering, tracing, vendor
 
 
 def _build_folder(app: Sphinx) -> Path:
@@ -79,7 +79,9 @@ def announce(app: Sphinx, page: str, _source: list[str]) -> None:
 def remove_former_modules(app: Sphinx, _error: Exception | None) -> None:
     """Remove source pages of modules that are no more: a build adds, but never takes away."""
     pages = Path(app.outdir) / "_modules"
-    for page in [page for top in ("softgrip", "book") for page in (pages / top).rglob("*.html")]:
+    for page in [
+        page for top in ("softgrip", "book", "tests") for page in (pages / top).rglob("*.html")
+    ]:
         source = tracing.ROOT / page.relative_to(pages).with_suffix("")
         if not (source.is_dir() or source.with_suffix(".py").is_file()):
             page.unlink()
@@ -88,6 +90,7 @@ def remove_former_modules(app: Sphinx, _error: Exception | None) -> None:
 def setup(app: Sphinx) -> dict[str, Any]:
     """Connect the parts to the stages of a build."""
     api.setup(app)
+    equations.setup(app)
     numbering.setup(app)
     app.connect("config-inited", use_local_scripts)
     app.connect("builder-inited", prepare_kernels)
