@@ -39,17 +39,15 @@ def rig_with(section: Section) -> RigParameters:
         n, known.width, known.height
     )
     heavier = rubber_mass(section, 1.0, 1.0) / rubber_mass(known, 1.0, 1.0)
-    return replace(
-        rig,
-        finger=replace(
-            finger,
-            torque_per_pressure=finger.torque_per_pressure * pushes,
-            stiffness=finger.stiffness * stiffer,
-            inertia=finger.inertia * heavier,
-            damping=finger.damping * (stiffer * heavier) ** 0.5,
-            rest_volume=finger.rest_volume * chamber_area(section) / chamber_area(known),
-        ),
+    changed = replace(
+        finger,
+        torque_per_pressure=finger.torque_per_pressure * pushes,
+        stiffness=finger.stiffness * stiffer,
+        inertia=finger.inertia * heavier,
+        damping=finger.damping * (stiffer * heavier) ** 0.5,
+        rest_volume=finger.rest_volume * chamber_area(section) / chamber_area(known),
     )
+    return replace(rig, fingers=(changed,))
 
 
 def identified_step(rig: RigParameters, *, angle: float = OPERATING_ANGLE) -> Identified:

@@ -87,7 +87,7 @@ def settled_angles(
     pressure
         Gauge, Pa, >= 0, shape (N,).
     runs, seed
-        As of `SimulatedRig`.
+        As of `Simulation`.
 
     Examples
     --------
@@ -98,7 +98,7 @@ def settled_angles(
     206.0
     """
     finger = rig.finger
-    chance = Chance(rig.spread, seed=seed, first=0, runs=runs)
-    stiffness = finger.stiffness * chance.stiffness[:, None]
+    chance = Chance(rig.spread, fingers=1, seed=seed, first=0, runs=runs)
+    stiffness = finger.stiffness * chance.stiffness.T
     torque = finger.torque_per_pressure * _gauge(pressure)
     return np.asarray((torque / stiffness) ** (1 / finger.fractional_power))

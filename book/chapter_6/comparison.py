@@ -16,14 +16,15 @@ from book.chapter_6.controllers import (
 from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.step_metrics import final_value, settling_time
+from softgrip.gripper.internal_model import PERIOD
 from softgrip.gripper.robustness import tolerated_uncertainty
 from softgrip.gripper.synchronization import synchronization_error
 from softgrip.simulator.chance import SEED
-from softgrip.simulator.gripper import GripperRig
 from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION
 from softgrip.simulator.gripper_loop import DrivenGripper, GripperController, drive_gripper
 from softgrip.simulator.gripper_parameters import printed_gripper
-from softgrip.simulator.parameters import GripperParameters
+from softgrip.simulator.parameters import RigParameters
+from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG
 
 RUNS = 50
@@ -103,18 +104,18 @@ def robustness_margin(name: str) -> float | None:
     return None if feedback is None else tolerated_uncertainty(own_model(), feedback)
 
 
-def _unlimited(gripper: GripperParameters) -> GripperParameters:
+def _unlimited(gripper: RigParameters) -> RigParameters:
     pump = replace(gripper.pump, speed_limit=1e4, acceleration_limit=1e7)
     return replace(gripper, pump=pump)
 
 
-def _quiet(gripper: GripperParameters) -> GripperParameters:
+def _quiet(gripper: RigParameters) -> RigParameters:
     # As many counts as make rounding vanish.
     sensors = replace(gripper.sensors, angle_noise=0.0, low_count=1e5, high_count=9e5, bits=20)
     return replace(gripper, sensors=sensors)
 
 
-RIGS: dict[str, Callable[[], GripperParameters]] = {
+RIGS: dict[str, Callable[[], RigParameters]] = {
     "as it is": printed_gripper,
     "no motor limit": lambda: _unlimited(printed_gripper()),
     "no sensor noise": lambda: _quiet(printed_gripper()),
@@ -128,7 +129,7 @@ def judged(name: str, rig: str = "as it is", *, runs: int = RUNS, seed: int = SE
     """Run and judge one of `ENTRIES` on one of `RIGS`, targets being those of its own model."""
     parameters = RIGS[rig]()
     made = drive_gripper(
-        GripperRig(parameters, runs=runs, seed=seed),
+        Simulation(parameters, runs=runs, seed=seed, period=PERIOD),
         ENTRIES[name](),
         duration=OPEN_LOOP_DURATION,
         limit=parameters.pump.speed_limit,

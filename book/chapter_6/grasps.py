@@ -11,10 +11,10 @@ from softgrip.arrays import Floats
 from softgrip.gripper.grasp import DiscBetweenFingers, ElasticDisc
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.simulator.chance import SEED
-from softgrip.simulator.gripper import GripperRig
 from softgrip.simulator.gripper_calibration import push_commands
 from softgrip.simulator.gripper_loop import CommandSequence, GripperController, Held, drive_gripper
 from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
+from softgrip.simulator.simulation import Simulation
 from softgrip.units import REV
 
 STEP = 0.0025
@@ -87,7 +87,7 @@ def grasp(stiffness: float, drive: str, *, equal: bool = False, step: float = ST
     gripper = printed_gripper(spread=False)
     if equal:
         gripper = replace(gripper, fingers=(gripper.fingers[0],) * 2)
-    rig = GripperRig(gripper, seed=SEED, contact=contact, step=step, period=SAMPLE)
+    rig = Simulation(gripper, seed=SEED, contact=contact, step=step, period=SAMPLE)
     controller = Held(DRIVES[drive](), round(PERIOD / SAMPLE))
     made = drive_gripper(rig, controller, duration=DURATION)
     angles, place = made.truth.angle[..., 0].T, made.truth.contact[:, 0, 0]

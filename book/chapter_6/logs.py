@@ -20,11 +20,11 @@ from softgrip.logs.schema import LogHeader
 from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance
 from softgrip.simulator.chance import SEED
-from softgrip.simulator.gripper import GripperRig
 from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION, push_commands
 from softgrip.simulator.gripper_calibration_table import FILE
 from softgrip.simulator.gripper_loop import CommandSequence, GripperController, drive_gripper
 from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
+from softgrip.simulator.simulation import Simulation
 from softgrip.units import REV
 
 RUNS = 7
@@ -128,7 +128,7 @@ def write_gripper_log(recipe: GripperRecipe, run: int, path: Path, source: str) 
     source
         The command that makes it.
     """
-    rig = GripperRig(printed_gripper(), seed=SEED, first=run)
+    rig = Simulation(printed_gripper(), seed=SEED, first=run, period=PERIOD)
     made = drive_gripper(rig, recipe.controller(), duration=recipe.duration, push=recipe.push)
     pump, fingers = rig.parameters.pump, range(len(rig.parameters.fingers))
     header = LogHeader(

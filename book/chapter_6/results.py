@@ -21,10 +21,10 @@ from softgrip.logs.fingers import GripperLogs, each_identified, read_runs
 from softgrip.provenance import data_file
 from softgrip.pump.finger import Finger, swept_volume
 from softgrip.simulator.chance import SEED
-from softgrip.simulator.gripper import GripperRig
 from softgrip.simulator.gripper_calibration import step_identifies
 from softgrip.simulator.gripper_loop import drive_gripper
 from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
+from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG
 
 BAND_SHARE = 0.1
@@ -104,7 +104,7 @@ def push_response(*, runs: int = 50) -> tuple[Floats, Floats]:
     """
     pushed, free = (
         drive_gripper(
-            GripperRig(printed_gripper(), runs=runs, seed=SEED),
+            Simulation(printed_gripper(), runs=runs, seed=SEED, period=PERIOD),
             gripper_controller("H 2/s"),
             duration=12.0,
             push=push,

@@ -16,9 +16,9 @@ from softgrip.arrays import Floats
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.provenance import data_file, data_folder
 from softgrip.simulator.chance import SEED
-from softgrip.simulator.gripper import GripperRig
 from softgrip.simulator.gripper_loop import CommandSequence, drive_gripper
 from softgrip.simulator.gripper_parameters import printed_gripper
+from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG, REV
 
 FILE = "gripper/speed_spread.csv"
@@ -52,7 +52,7 @@ class SpeedSpread:
 def errors_at(speed: float, *, runs: int = RUNS, seed: int = SEED) -> SpeedSpread:
     """Simulate steps of the left finger at a speed, rev/s."""
     commands = low_speed_commands(speed * REV)
-    rig = GripperRig(printed_gripper(), runs=runs, seed=seed)
+    rig = Simulation(printed_gripper(), runs=runs, seed=seed, period=PERIOD)
     made = drive_gripper(rig, CommandSequence(commands), duration=PERIOD * commands.size + REST)
     last = round(END / PERIOD)
     true, measured = (

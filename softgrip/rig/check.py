@@ -13,7 +13,7 @@ from softgrip.logs.gaps import find_gaps, places
 from softgrip.logs.schema import PAD_CHANNELS
 from softgrip.rig.interface import Connection
 from softgrip.rig.replay import ReplayConnection
-from softgrip.simulator.gripper import together
+from softgrip.simulator.simulation import together
 from softgrip.units import DEG, MPa
 
 LISTEN = 2.0

@@ -6,28 +6,27 @@ from typing import Self
 from numpy.typing import ArrayLike
 
 from softgrip.errors import InvalidInputError
+from softgrip.gripper.internal_model import PERIOD
 from softgrip.logs.schema import LogHeader
 from softgrip.provenance import Provenance
 from softgrip.rig.interface import Interlock
 from softgrip.simulator.calibration import FULL_PRESSURE, design_1
 from softgrip.simulator.calibration_table import FILE
-from softgrip.simulator.finger import SimulatedRig
-from softgrip.simulator.gripper import GripperRig
 from softgrip.simulator.gripper_calibration_table import FILE as GRIPPER_FILE
 from softgrip.simulator.gripper_parameters import printed_gripper
-from softgrip.simulator.sensors import Measurement, by_finger
+from softgrip.simulator.sensors import Measurement
+from softgrip.simulator.simulation import Simulation
 
 
 def simulated_finger(*, seed: int = 0) -> "SimulatedConnection":
     """Return the finger of Chapters 3 to 5, sampled each 25 ms."""
-    return SimulatedConnection(SimulatedRig(design_1(), seed=seed), f"data/{FILE}", seed)
+    return SimulatedConnection(Simulation(design_1(), seed=seed), f"data/{FILE}", seed)
 
 
 def simulated_gripper(*, seed: int = 0) -> "SimulatedConnection":
     """Return the two fingers of Section 6.4, sampled each 100 ms, left finger first."""
-    return SimulatedConnection(
-        GripperRig(printed_gripper(), seed=seed), f"data/{GRIPPER_FILE}", seed
-    )
+    rig = Simulation(printed_gripper(), seed=seed, period=PERIOD)
+    return SimulatedConnection(rig, f"data/{GRIPPER_FILE}", seed)
 
 
 class SimulatedConnection:
@@ -52,7 +51,7 @@ class SimulatedConnection:
 
     def __init__(
         self,
-        rig: SimulatedRig | GripperRig,
+        rig: Simulation,
         calibration: str = "none",
         seed: int = 0,
         *,
@@ -61,12 +60,10 @@ class SimulatedConnection:
         if rig.runs != 1:
             raise InvalidInputError("rig", expected="one run", got=rig.runs)
         self.rig, self.period = rig, rig.period
-        self.fingers = 1 if isinstance(rig, SimulatedRig) else len(rig.parameters.fingers)
+        self.fingers = len(rig.parameters.fingers)
         self._calibration, self._seed = calibration, seed
         self._interlock = Interlock("simulated rig", pressure_limit)
-        self._last = by_finger(
-            rig.advance(0.0, 0.0) if isinstance(rig, SimulatedRig) else rig.measure()
-        )
+        self._last = rig.measure()
 
     def measure(self) -> Measurement:
         """Return the last sample: a rig that is sampled knows nothing in between."""
@@ -75,7 +72,7 @@ class SimulatedConnection:
     def advance(self, command: ArrayLike) -> Measurement:
         """Hold a motor speed for one period; see `Connection.advance`."""
         speed = self._interlock.permitted(command, float(self._last.pressure[0]))
-        self._last = by_finger(self.rig.advance(speed))
+        self._last = self.rig.advance(speed)
         return self._last
 
     def take_event(self) -> str:
@@ -84,7 +81,7 @@ class SimulatedConnection:
 
     def stop(self) -> None:
         """Bring the motor to rest, which takes a period."""
-        self._last = by_finger(self.rig.advance(0.0))
+        self._last = self.rig.advance(0.0)
 
     def emergency_stop(self) -> None:
         """Stop, and refuse to move until `clear`."""
@@ -99,7 +96,7 @@ class SimulatedConnection:
         """Draw the plunger out to its end; a plunger that is there does not move."""
         limit = self.rig.parameters.pump.speed_limit
         while self.rig.truth.plunger[0] > 0:
-            self._last = by_finger(self.rig.advance(-limit))
+            self._last = self.rig.advance(-limit)
         self._interlock.homed = True
 
     def reconnect(self, within: float) -> None:

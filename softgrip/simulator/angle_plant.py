@@ -3,7 +3,7 @@
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats
-from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.simulation import Simulation
 
 
 class AnglePlant:
@@ -15,12 +15,13 @@ class AnglePlant:
         Which is driven; its truth stays at hand there.
     """
 
-    def __init__(self, rig: SimulatedRig) -> None:
+    def __init__(self, rig: Simulation) -> None:
         self.rig = rig
 
     def advance(self, command: ArrayLike, duration: float) -> Floats:
-        """Hold a motor speed (rad/s) for a time (s), then return the measured angle, rad, (runs,).
+        """Hold a motor speed (rad/s) for a period, then return the measured angle, rad, (runs,).
 
         A duration of 0 moves nothing and measures.
         """
-        return self.rig.advance(command, duration).angle
+        angle: Floats = (self.rig.advance(command) if duration else self.rig.measure()).angle[0]
+        return angle

@@ -129,7 +129,7 @@ def calibrated(printed: PrintedFinger, *, spread: bool = True) -> RigParameters:
         leakage=0.3,
     )
     return RigParameters(
-        replace(bare, inertia=float(inertia), damping=float(damping)),
+        (replace(bare, inertia=float(inertia), damping=float(damping)),),
         spread=between_runs if spread else Spread(),
     )
 

@@ -13,7 +13,7 @@ from scipy.optimize import least_squares
 
 from softgrip.arrays import Floats
 from softgrip.simulator.calibration import design_1
-from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.simulation import Simulation
 from softgrip.units import REV, MPa
 
 LOW, HIGH = 0.05 * MPa, 0.10 * MPa
@@ -42,7 +42,7 @@ def least_air_swept(gauge: float, excess: float, atmosphere: float = 101325.0) -
 
 def push() -> tuple[Floats, Floats]:
     """Return swept volume (m^3) and true gauge pressure (Pa) of the default push, no spread."""
-    rig = SimulatedRig(design_1(spread=False))
+    rig = Simulation(design_1(spread=False))
     _, truth = rig.open_loop(np.full(320, 1.65 * REV))
     swept = rig.parameters.pump.area * truth.plunger[:, 0]
     moving = np.diff(swept, prepend=0.0) > 0

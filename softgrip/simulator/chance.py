@@ -1,4 +1,4 @@
-"""All chance in the simulated rig: a stream of numbers for each run, whatever the batch."""
+"""All chance in a simulated rig: a stream of numbers for each run, whatever the batch."""
 
 import numpy as np
 
@@ -7,9 +7,6 @@ from softgrip.simulator.parameters import Spread
 
 SEED = 2024
 """Of all simulated data that are kept, and of the studies on them."""
-
-CHANNELS = 2
-"""Noisy channels: pressure and angle."""
 
 _BLOCK = 64
 
@@ -29,26 +26,34 @@ class Chance:
 
     Attributes
     ----------
-    stiffness, damping, leakage
-        Multiples of the parameters, median 1, shape (runs,).
+    stiffness, damping
+        Multiples of the parameters of each finger, median 1, shape (fingers, runs).
+    leakage
+        The same of the leak, shape (runs,).
     """
 
-    def __init__(self, spread: Spread, *, seed: int, first: int, runs: int) -> None:
+    def __init__(self, spread: Spread, *, fingers: int, seed: int, first: int, runs: int) -> None:
         pairs = [streams(seed, first + run) for run in range(runs)]
-        drawn = np.array([own.standard_normal(3) for own, _ in pairs]).T
-        self.stiffness: Floats = np.exp(spread.stiffness * drawn[0])
-        self.damping: Floats = np.exp(spread.damping * drawn[1])
-        self.leakage: Floats = np.exp(spread.leakage * drawn[2])
+        drawn = np.array([own.standard_normal(1 + 2 * fingers) for own, _ in pairs]).T
+        # So the kept logs were made: the leak of a single finger is drawn last, of several first.
+        leak = 2 if fingers == 1 else 0
+        own = np.delete(drawn, leak, axis=0)
+        self.stiffness: Floats = np.exp(spread.stiffness * own[0::2])
+        self.damping: Floats = np.exp(spread.damping * own[1::2])
+        self.leakage: Floats = np.exp(spread.leakage * drawn[leak])
         self._noise = [noise for _, noise in pairs]
-        self._block = np.empty((_BLOCK, CHANNELS, runs))
+        self._block = np.empty((_BLOCK, 1 + fingers, runs))
         self._used = _BLOCK
 
     def noise(self) -> Floats:
-        """Return the noise of the next sample, standard normal, shape (CHANNELS, runs)."""
+        """Return the noise of the next sample, standard normal, shape (1 + fingers, runs).
+
+        Of the pressure, then of each angle.
+        """
         if self._used == _BLOCK:
             # A block at a time: a call for each run and sample would cost more than the physics.
             for run, generator in enumerate(self._noise):
-                self._block[:, :, run] = generator.standard_normal((_BLOCK, CHANNELS))
+                self._block[:, :, run] = generator.standard_normal(self._block.shape[:2])
             self._used = 0
         self._used += 1
         drawn: Floats = self._block[self._used - 1]

@@ -1,6 +1,6 @@
 """A controller on the simulated rig, with all that its sensors tell."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike
 from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT, Controller, LoopResult, run_loop
 from softgrip.simulator.angle_plant import AnglePlant
-from softgrip.simulator.finger import SimulatedRig
 from softgrip.simulator.sensors import Measurement
+from softgrip.simulator.simulation import Simulation, together
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class ClosedLoop:
     result
         Reference, measured angle and command, shape (runs, N) where they differ by run.
     measured
-        All that the sensors said at the N samples, arrays of shape (N, runs).
+        All that the sensors said at the N samples, with a leading axis of samples.
     true_angle
         rad, shape (runs, N): what a real rig would not tell.
     """
@@ -32,7 +32,7 @@ class ClosedLoop:
 
 
 def run_on_rig(
-    rig: SimulatedRig, controlled_by: Controller, reference: ArrayLike, *, duration: float
+    rig: Simulation, controlled_by: Controller, reference: ArrayLike, *, duration: float
 ) -> ClosedLoop:
     """Run a controller on a simulated rig, commands limited to 5 rev/s.
 
@@ -53,27 +53,20 @@ def run_on_rig(
     )
     # The loop ends with the command of its last sample carried out.
     seen, angles = plant.measured[:-1], plant.angles[:-1]
-    together = Measurement(
-        np.array([one.time for one in seen]),
-        *(
-            np.stack([getattr(one, name) for one in seen])
-            for name in ("pressure", "angle", "pressure_counts", "angle_counts")
-        ),
-    )
-    return ClosedLoop(result, together, np.stack(angles, axis=-1))
+    return ClosedLoop(result, together(seen), np.stack(angles, axis=-1))
 
 
 class _Recorder(AnglePlant):
     """An `AnglePlant` that keeps what it measured."""
 
-    def __init__(self, rig: SimulatedRig) -> None:
+    def __init__(self, rig: Simulation) -> None:
         super().__init__(rig)
         self.measured: list[Measurement] = []
         self.angles: list[Floats] = []
 
     def advance(self, command: ArrayLike, duration: float) -> Floats:
-        found = self.rig.advance(command, duration)
-        # The rig may reuse its arrays for the next sample.
-        self.measured.append(replace(found, angle=found.angle.copy()))
-        self.angles.append(self.rig.truth.angle)
-        return found.angle
+        found = self.rig.advance(command) if duration else self.rig.measure()
+        self.measured.append(found)
+        self.angles.append(self.rig.truth.angle[0])
+        angle: Floats = found.angle[0]
+        return angle

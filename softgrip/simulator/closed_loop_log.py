@@ -20,7 +20,7 @@ from softgrip.simulator.calibration import design_1
 from softgrip.simulator.calibration_table import FILE
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.closed_loop import run_on_rig
-from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG
 
 STEP = 60 * DEG
@@ -68,7 +68,7 @@ def write_closed_loop(recipe: ClosedLoopRecipe, path: Path, source: str) -> None
         The command that makes it.
     """
     count = recipe.reference.size
-    rig = SimulatedRig(design_1(), seed=SEED, period=PERIOD)
+    rig = Simulation(design_1(), seed=SEED, period=PERIOD)
     loop = run_on_rig(rig, recipe.controller(), recipe.reference, duration=(count - 1) * PERIOD)
     pump = rig.parameters.pump
     header = LogHeader(
@@ -94,8 +94,8 @@ def write_closed_loop(recipe: ClosedLoopRecipe, path: Path, source: str) -> None
                 time=round(k * PERIOD, 9),
                 command=float(held[k]),
                 pressure_counts=int(seen.pressure_counts[k, 0]),
-                angle_counts=int(seen.angle_counts[k, 0]),
+                angle_counts=int(seen.angle_counts[k, 0, 0]),
                 pressure=float(seen.pressure[k, 0]),
-                angle=float(seen.angle[k, 0]),
+                angle=float(seen.angle[k, 0, 0]),
                 reference=float(recipe.reference[k]),
             )

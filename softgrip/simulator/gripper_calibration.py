@@ -15,7 +15,6 @@ from softgrip.arrays import Floats
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.gripper.plant import FingerDynamics
 from softgrip.logs.fingers import GripperLogs, each_identified
-from softgrip.simulator.gripper import GripperRig
 from softgrip.simulator.gripper_loop import CommandSequence, drive_gripper
 from softgrip.simulator.gripper_parameters import (
     DAMPING,
@@ -27,7 +26,8 @@ from softgrip.simulator.gripper_parameters import (
     finger_of,
     printed_gripper,
 )
-from softgrip.simulator.parameters import GripperParameters, PumpParameters
+from softgrip.simulator.parameters import PumpParameters, RigParameters
+from softgrip.simulator.simulation import Simulation
 from softgrip.units import REV
 
 OPEN_LOOP_DURATION = 6.0
@@ -51,7 +51,7 @@ def push_commands(travel: float, pump: PumpParameters, speed: float = 5 * REV) -
 
 
 def step_identifies(
-    parameters: GripperParameters,
+    parameters: RigParameters,
     travel: float,
     *,
     runs: int = 1,
@@ -69,7 +69,7 @@ def step_identifies(
         ``found[finger][run]``.
     """
     commands = push_commands(travel, parameters.pump, speed)
-    rig = GripperRig(parameters, runs=runs, seed=seed)
+    rig = Simulation(parameters, runs=runs, seed=seed, period=PERIOD)
     # The six seconds of the fast push, longer by what a slow one takes.
     duration = OPEN_LOOP_DURATION + PERIOD * (commands.size - 2)
     run = drive_gripper(rig, CommandSequence(commands), duration=duration)
@@ -82,7 +82,7 @@ def calibrate() -> tuple[Floats, Floats, float]:
     """Return inertia, damping and the travel of the plunger in the open-loop step, SI."""
     base = printed_gripper(spread=False)
 
-    def gripper(x: Floats) -> GripperParameters:
+    def gripper(x: Floats) -> RigParameters:
         fingers = tuple(map(finger_of, OPEN_LOOP_ANGLES, *np.exp(x[:4]).reshape(2, 2).tolist()))
         return replace(base, fingers=fingers)
 

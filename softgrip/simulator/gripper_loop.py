@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT, Controller
 from softgrip.control.state_feedback import SPEED_DIGITS
-from softgrip.simulator.gripper import GripperRig, GripperTruth, together, truths_together
 from softgrip.simulator.sensors import Measurement
+from softgrip.simulator.simulation import Simulation, Truth, together
 
 
 class GripperController(Protocol):
@@ -106,11 +106,11 @@ class DrivenGripper:
     time: Floats
     command: Floats
     measured: Measurement
-    truth: GripperTruth
+    truth: Truth
 
 
 def drive_gripper(
-    rig: GripperRig,
+    rig: Simulation,
     controller: GripperController,
     *,
     duration: float,
@@ -143,4 +143,4 @@ def drive_gripper(
         measured.append(rig.advance(commands[-1]))
         truths.append(rig.truth)
     seen = together(measured)
-    return DrivenGripper(np.asarray(seen.time), np.array(commands), seen, truths_together(truths))
+    return DrivenGripper(np.asarray(seen.time), np.array(commands), seen, together(truths))

@@ -25,8 +25,8 @@ from softgrip.simulator.calibration import (
 )
 from softgrip.simulator.parameters import (
     FingerParameters,
-    GripperParameters,
     PumpParameters,
+    RigParameters,
     Spread,
 )
 from softgrip.units import DEG, ML
@@ -92,14 +92,14 @@ def run_to_run() -> Spread:
     )
 
 
-def printed_gripper(*, spread: bool = True) -> GripperParameters:
+def printed_gripper(*, spread: bool = True) -> RigParameters:
     """Return the two-finger gripper of Section 6.4, left finger first; `spread` as `design_1`."""
     between_runs = run_to_run() if spread else Spread()
     fingers = tuple(map(finger_of, OPEN_LOOP_ANGLES, INERTIA, DAMPING))
-    return GripperParameters(fingers, PUMP, spread=between_runs)
+    return RigParameters(fingers, PUMP, spread=between_runs)
 
 
-def drawn_gripper(count: int, *, seed: int = 0, spread: bool = True) -> GripperParameters:
+def drawn_gripper(count: int, *, seed: int = 0, spread: bool = True) -> RigParameters:
     """Return a gripper whose fingers differ by chance, as much as the printed two do.
 
     Stiffness, inertia and damping of each finger are log-normal about the geometric means of the

@@ -1,17 +1,22 @@
 """The physics of the simulated rig: pressure, leakage, torque, and the slopes of all states."""
 
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from softgrip.arrays import Floats
+from softgrip.simulator.chance import Chance
 from softgrip.simulator.parameters import FingerParameters, RigParameters
 
 Value = Any
 """A float or an array: a law returns what it was given, and broadcasts."""
 
-AMOUNT, ANGLE, RATE, SENSED_PRESSURE, SENSED_ANGLE, MEMORY = range(6)
-"""Rows of the state: n R T (J), rad, rad/s, Pa gauge, rad, then N m for each branch of memory."""
+AMOUNT, SENSED_PRESSURE, FINGERS = range(3)
+"""Rows of the state: n R T (J), Pa gauge, then the rows of the fingers, then those of a contact."""
+
+ANGLE, RATE, SENSED_ANGLE, MEMORY = range(4)
+"""What the fingers' rows hold, of all fingers each: rad, rad/s, rad, then N m for each branch of
+memory."""
 
 GAS_CONSTANT = 8.314462618
 """J/(mol K)."""
@@ -77,73 +82,113 @@ def finger_volume(angle: Value, gauge: Value, finger: FingerParameters) -> Value
     return finger.rest_volume + finger.torque_per_pressure * angle + finger.ballooning * gauge
 
 
+class Contact(Protocol):
+    """What the fingers touch; see `softgrip.gripper.grasp`."""
+
+    @property
+    def states(self) -> int:
+        """Number of states of its own; they start at zero."""
+        ...
+
+    def slopes(self, angle: Floats, own: Floats, slope: Floats) -> Floats:
+        """Write the slopes of its states, shape (states, runs), and return the torque on the
+        fingers at their angles, N m and rad, both of shape (fingers, runs).
+        """  # noqa: D205
+        ...
+
+
 class Plant:
-    """The slopes of the rig's states for a batch of runs.
+    """The slopes of the states of fingers on one syringe, for a batch of runs.
 
     Parameters
     ----------
     parameters
         Of the rig.
-    stiffness, damping, leakage
-        What each run has of these, shape (runs,), as multiples of the parameters.
+    chance
+        What each run has of stiffness, damping and leak.
+    contact
+        What the fingers touch; None for nothing.
+
+    Attributes
+    ----------
+    push
+        Torque from outside, N m, positive bends a finger further, shape (fingers, runs).
+    states
+        Number of rows of the state.
     """
 
     def __init__(
-        self, parameters: RigParameters, stiffness: Floats, damping: Floats, leakage: Floats
+        self, parameters: RigParameters, chance: Chance, contact: Contact | None = None
     ) -> None:
-        finger, gas = parameters.finger, parameters.gas
-        self.parameters = parameters
-        self.stiffness = finger.stiffness * stiffness
-        self.damping = finger.damping * damping
-        self.leakage = gas.leakage * leakage
-        self._memory = np.array(finger.memory)[:, None]
-        self._relaxation = 1 / np.array(finger.memory_time)[:, None]
+        self.parameters, self.contact = parameters, contact
+        self.stiffness = self._column("stiffness") * chance.stiffness
+        self.damping = self._column("damping") * chance.damping
+        self.leakage = parameters.gas.leakage * chance.leakage
+        self.power, self.inertia = self._column("fractional_power"), self._column("inertia")
+        self.torque_per_pressure = self._column("torque_per_pressure")
+        self.friction, self.slow = self._column("friction"), self._column("friction_rate") ** 2
+        self.memory = self._column("memory").swapaxes(0, 1)
+        self.relaxation = 1 / self._column("memory_time").swapaxes(0, 1)
+        self.ballooning = float(self._column("ballooning").sum())
+        self.rest = float(self._column("rest_volume").sum()) + parameters.gas.dead_volume
+        self.push: Floats = np.zeros(chance.stiffness.shape)
+        self.rows = MEMORY + len(self.memory)
+        self.end = FINGERS + self.rows * len(parameters.fingers)
+        self.states = self.end + (contact.states if contact else 0)
 
-    def gauge_pressure(self, state: Floats, syringe_volume: Floats) -> Floats:
+    def _column(self, name: str) -> Floats:
+        values = np.array([getattr(finger, name) for finger in self.parameters.fingers])
+        return values.astype(np.float64)[..., None]
+
+    def fingers(self, state: Floats) -> Floats:
+        """Return a view of the fingers' part of a state, shape (rows, fingers, runs)."""
+        return state[FINGERS : self.end].reshape(self.rows, -1, state.shape[-1])
+
+    def gauge_pressure(self, amount: Floats, angle: Floats, syringe_volume: Floats) -> Floats:
         """Return the pressure above the atmosphere, Pa, shape (runs,).
 
         Parameters
         ----------
-        state
-            Shape (states, runs).
+        amount
+            n R T, J, shape (runs,).
+        angle
+            rad, shape (fingers, runs).
         syringe_volume
             Air in the syringe, m^3, shape (runs,).
         """
-        finger, gas = self.parameters.finger, self.parameters.gas
-        volume = finger.torque_per_pressure * state[ANGLE]
+        swept = self.torque_per_pressure * angle
+        volume: Floats = sum(swept[1:], swept[0])
         volume += syringe_volume
-        volume += finger.rest_volume + gas.dead_volume
-        pressure: Floats = absolute_pressure(
-            state[AMOUNT], volume, finger.ballooning, gas.atmosphere
-        )
-        pressure -= gas.atmosphere
+        volume += self.rest
+        atmosphere = self.parameters.gas.atmosphere
+        pressure: Floats = absolute_pressure(amount, volume, self.ballooning, atmosphere)
+        pressure -= atmosphere
         return pressure
 
     def slopes(self, state: Floats, slope: Floats, syringe_volume: Floats) -> None:
-        """Write the slope of each state; shapes as in `gauge_pressure`."""
-        finger, gas, sensors = (
-            self.parameters.finger,
-            self.parameters.gas,
-            self.parameters.sensors,
-        )
-        angle, rate = state[ANGLE], state[RATE]
-        gauge = self.gauge_pressure(state, syringe_volume)
+        """Write the slope of each state, shape (states, runs)."""
+        gas, sensors = self.parameters.gas, self.parameters.sensors
+        own, rates = self.fingers(state), self.fingers(slope)
+        angle, rate = own[ANGLE], own[RATE]
+        gauge = self.gauge_pressure(state[AMOUNT], angle, syringe_volume)
         np.negative(leak(gauge, self.leakage, gas.atmosphere), out=slope[AMOUNT])
-        slope[ANGLE] = rate
-        secant = np.abs(angle) ** (finger.fractional_power - 1)
+        np.subtract(gauge, state[SENSED_PRESSURE], out=slope[SENSED_PRESSURE])
+        slope[SENSED_PRESSURE] /= sensors.pressure_lag
+        secant = np.abs(angle) ** (self.power - 1)
         secant *= self.stiffness
-        held, loaded = slope[MEMORY:], state[MEMORY:]
-        np.multiply(self._memory, secant * rate * finger.fractional_power, out=held)
-        held -= loaded * self._relaxation
-        torque = finger.torque_per_pressure * gauge
+        held, loaded = rates[MEMORY:], own[MEMORY:]
+        np.multiply(self.memory, secant * rate * self.power, out=held)
+        held -= loaded * self.relaxation
+        torque = self.torque_per_pressure * gauge
         torque -= secant * angle
         torque -= self.damping * rate
         for branch in loaded:
             torque -= branch
-        if finger.friction:
-            torque -= finger.friction * rate / (rate * rate + finger.friction_rate**2) ** 0.5
-        np.divide(torque, finger.inertia, out=slope[RATE])
-        np.subtract(gauge, state[SENSED_PRESSURE], out=slope[SENSED_PRESSURE])
-        slope[SENSED_PRESSURE] /= sensors.pressure_lag
-        np.subtract(angle, state[SENSED_ANGLE], out=slope[SENSED_ANGLE])
-        slope[SENSED_ANGLE] /= sensors.angle_lag
+        torque -= self.friction * rate / np.sqrt(rate * rate + self.slow)
+        torque += self.push
+        if self.contact:
+            torque += self.contact.slopes(angle, state[self.end :], slope[self.end :])
+        rates[ANGLE] = rate
+        np.divide(torque, self.inertia, out=rates[RATE])
+        np.subtract(angle, own[SENSED_ANGLE], out=rates[SENSED_ANGLE])
+        rates[SENSED_ANGLE] /= sensors.angle_lag

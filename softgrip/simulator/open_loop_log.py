@@ -14,8 +14,8 @@ from softgrip.provenance import Provenance
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.calibration_table import FILE
 from softgrip.simulator.chance import SEED
-from softgrip.simulator.finger import SimulatedRig
 from softgrip.simulator.parameters import PumpParameters, RigParameters
+from softgrip.simulator.simulation import Simulation
 
 
 @dataclass(frozen=True)
@@ -62,9 +62,7 @@ def write_open_loop(recipe: OpenLoopRecipe, path: Path, source: str) -> None:
         The command that makes it.
     """
     parameters = replace(recipe.design(), pump=recipe.pump)
-    rig = SimulatedRig(
-        parameters, seed=SEED, first=recipe.run, period=PERIOD, plunger=recipe.plunger
-    )
+    rig = Simulation(parameters, seed=SEED, first=recipe.run, period=PERIOD, plunger=recipe.plunger)
     header = LogHeader(
         provenance=Provenance.SIMULATED,
         source=source,
@@ -89,9 +87,9 @@ def write_open_loop(recipe: OpenLoopRecipe, path: Path, source: str) -> None:
                 time=round((k + 1) * PERIOD, 9),
                 command=float(command),
                 pressure_counts=int(found.pressure_counts[0]),
-                angle_counts=int(found.angle_counts[0]),
+                angle_counts=int(found.angle_counts[0, 0]),
                 pressure=float(found.pressure[0]),
-                angle=float(found.angle[0]),
+                angle=float(found.angle[0, 0]),
                 event=event,
             )
             if event:

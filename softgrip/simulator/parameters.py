@@ -205,18 +205,7 @@ class Spread:
 
 @dataclass(frozen=True)
 class RigParameters:
-    """All of the simulated rig."""
-
-    finger: FingerParameters
-    pump: PumpParameters = field(default_factory=PumpParameters)
-    gas: GasParameters = field(default_factory=GasParameters)
-    sensors: SensorParameters = field(default_factory=SensorParameters)
-    spread: Spread = field(default_factory=Spread)
-
-
-@dataclass(frozen=True)
-class GripperParameters:
-    """All of a simulated gripper: fingers on one syringe, one pressure sensor, a flex sensor each.
+    """All of a simulated rig: fingers on one syringe, one pressure sensor, a flex sensor each.
 
     Attributes
     ----------
@@ -247,3 +236,8 @@ class GripperParameters:
                 expected="one to five, with as many branches of memory each",
                 got=(len(self.fingers), branches),
             )
+
+    @property
+    def finger(self) -> FingerParameters:
+        """The finger, or the first of several."""
+        return self.fingers[0]

@@ -1,6 +1,6 @@
 """From what the sensors feel to counts of the converter, and back to pressure and angle."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,9 +22,9 @@ class Measurement:
     pressure
         Gauge, Pa, shape (..., runs).
     angle
-        rad, same shape.
+        rad, shape (..., fingers, runs).
     pressure_counts, angle_counts
-        What the converter gave, same shape.
+        What the converter gave, same shapes.
     """
 
     time: float | Floats
@@ -73,9 +73,9 @@ def measure(
     time
         s.
     pressure, angle
-        Outputs of the lags, Pa gauge and rad, shape (..., runs).
+        Outputs of the lags, Pa gauge and rad, shape (runs,) and (fingers, runs).
     noise
-        Standard normal numbers, shape (2, ..., runs): of the pressure and of the angle.
+        Standard normal numbers, shape (1 + fingers, runs): of the pressure and of each angle.
     sensors
         Their parameters.
     """
@@ -85,7 +85,7 @@ def measure(
         felt_pressure + sensors.pressure_noise * noise[0], sensors.pressure_range, sensors
     )
     angle_counts = to_counts(
-        felt_angle + sensors.angle_noise * noise[1], sensors.angle_range, sensors
+        felt_angle + sensors.angle_noise * noise[1:], sensors.angle_range, sensors
     )
     return Measurement(
         time,
@@ -93,15 +93,4 @@ def measure(
         from_counts(angle_counts, sensors.angle_range, sensors),
         pressure_counts,
         angle_counts,
-    )
-
-
-def by_finger(found: Measurement) -> Measurement:
-    """Return a measurement of one run with its angles as shape (fingers, 1)."""
-    return replace(
-        found,
-        pressure=found.pressure.reshape(1),
-        angle=found.angle.reshape(-1, 1).copy(),
-        pressure_counts=found.pressure_counts.reshape(1),
-        angle_counts=found.angle_counts.reshape(-1, 1),
     )

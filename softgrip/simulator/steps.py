@@ -9,8 +9,8 @@ from scipy.optimize import brentq
 from softgrip.arrays import Floats, check_positive
 from softgrip.control.pid import PERIOD
 from softgrip.logs.repeated_steps import StepTest
-from softgrip.simulator.finger import SimulatedRig
 from softgrip.simulator.parameters import PumpParameters, RigParameters, Spread
+from softgrip.simulator.simulation import Simulation
 
 DURATION = 6.0
 """Of a test, s (assumed)."""
@@ -45,11 +45,11 @@ def simulate_step_test(rig: RigParameters, plunger: float, *, runs: int, seed: i
     plunger
         Travel of the plunger, m.
     runs, seed
-        As of `SimulatedRig`.
+        As of `Simulation`.
     """
-    driven = SimulatedRig(rig, runs=runs, seed=seed, period=PERIOD)
+    driven = Simulation(rig, runs=runs, seed=seed, period=PERIOD)
     _, truth = driven.open_loop(step_commands(plunger))
-    return StepTest(np.asarray(truth.time), truth.pressure.T, truth.angle.T)
+    return StepTest(np.asarray(truth.time), truth.pressure.T, truth.angle[:, 0].T)
 
 
 def travel_to(rig: RigParameters, angle: float) -> float:

@@ -2,15 +2,17 @@
 
 import numpy as np
 
-from softgrip.simulator.batches import in_parts
+from softgrip.dynamics.chunks import chunks
 from softgrip.simulator.calibration import design_1
-from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.simulation import Simulation
 from tests.bench.entry import Entry, interleaved, spread
 
 PERIOD = 0.025
 WANTED_SINGLY, WANTED_IN_BATCHES = 50, 5000
 SPEED = 8.0
 """Of the motor, rad/s: 4 s in and 4 s out bend the finger and let it back, within the stroke."""
+NUMBERS = 25
+"""Kept of one run at one sample, with intermediate results: so a part fits into memory."""
 
 
 def commands(seconds: float) -> np.ndarray:
@@ -21,16 +23,20 @@ def commands(seconds: float) -> np.ndarray:
 
 def singly(speeds: np.ndarray) -> float:
     """Run one rig as a controller does, a measurement each period; return its last angle, rad."""
-    rig = SimulatedRig(design_1(), seed=1, period=PERIOD)
+    rig = Simulation(design_1(), seed=1, period=PERIOD)
     for speed in speeds:
         found = rig.advance(speed)
-    return float(found.angle[0])
+    return float(found.angle[0, 0])
 
 
 def in_batches(speeds: np.ndarray, runs: int) -> int:
     """Run many rigs; return the number of runs."""
-    parts = in_parts(design_1(), speeds, runs=runs, seed=1, period=PERIOD)
-    return sum(found.angle.shape[1] for _, found, _ in parts)
+    done = 0
+    for part in chunks(runs, NUMBERS * 8 * speeds.size):
+        count = part.stop - part.start
+        rig = Simulation(design_1(), runs=count, seed=1, first=part.start, period=PERIOD)
+        done += rig.open_loop(speeds)[0].angle.shape[-1]
+    return done
 
 
 def entries(*, seconds: float = 10.0, runs: int = 1000, repetitions: int = 7) -> list[Entry]:

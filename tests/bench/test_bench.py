@@ -94,7 +94,7 @@ def test_rig_is_moved_within_its_limits():
     # A plunger at the end of its stroke would make the run easier than a run.
     speeds = rig.commands(10.0)
     parameters = rig.design_1()
-    moved = rig.SimulatedRig(parameters, seed=1)
+    moved = rig.Simulation(parameters, seed=1)
     _, truth = moved.open_loop(speeds)
     assert truth.plunger.max() < parameters.pump.stroke
     assert truth.angle.max() > 0.5

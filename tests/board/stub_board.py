@@ -31,7 +31,7 @@ from softgrip.board.protocol import (
     SetUp,
 )  # fmt: skip
 from softgrip.simulator.calibration import design_1
-from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.simulation import Simulation
 from softgrip.units import REV
 
 STEPS = 800
@@ -47,7 +47,7 @@ class StubBoard:
     """
 
     def __init__(self, *, valve=False, table=TABLE, build=0xC0FFEE, rig=None):
-        self.rig = rig or SimulatedRig(design_1(), period=TELEMETRY_PERIOD)
+        self.rig = rig or Simulation(design_1(), period=TELEMETRY_PERIOD)
         self.valve, self.table, self.build = valve, table, build
         self.deaf = self.closed = False
         self.pulled_until = -1.0
@@ -55,7 +55,7 @@ class StubBoard:
         self.received = []
         self._t = 0.0
         self.reset()
-        self._measured = self.rig.advance(0.0, 0.0)
+        self._measured = self.rig.measure()
 
     def reset(self):
         self.flags, self.speed, self.number, self.started = Flag(0), 0, 0, self._t
@@ -127,7 +127,7 @@ class StubBoard:
             return
         channels = [0] * len(CHANNELS)
         channels[CHANNELS.index("pressure")] = pressure
-        channels[CHANNELS.index("flex_1")] = int(self._measured.angle_counts[0])
+        channels[CHANNELS.index("flex_1")] = int(self._measured.angle_counts[0, 0])
         channels[CHANNELS.index("flex_2")] = 512
         self._say(
             TELEMETRY, 0, number=self.number, time=round((self._t - self.started) * 1e3),

@@ -23,7 +23,7 @@ from softgrip.board.framing import Frame, encode
 from softgrip.board.protocol import ACK, HOME, SETPOINT, TABLE, TELEMETRY_PERIOD, Flag
 from softgrip.errors import InvalidInputError
 from softgrip.simulator.calibration import design_1
-from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.simulation import Simulation
 from softgrip.units import PSI, REV
 from tests.board.stub_board import HARD, LIMITS, StubBoard
 from tests.rig.test_live import until
@@ -115,7 +115,7 @@ def test_a_longer_period_skips_telemetry(stub):
 
 
 def test_homing_that_is_broken_off_stops():
-    board = StubBoard(rig=SimulatedRig(design_1(), plunger=0.05))
+    board = StubBoard(rig=Simulation(design_1(), plunger=0.05))
     turned = []
 
     def interrupt():
@@ -203,7 +203,7 @@ def test_an_answer_that_is_lost_is_asked_for_again(rig, stub):
 
 
 def test_homing_goes_on_though_its_answer_is_lost():
-    board = StubBoard(rig=SimulatedRig(design_1(), plunger=0.05))
+    board = StubBoard(rig=Simulation(design_1(), plunger=0.05))
     say, lost = board._say, []
 
     def losing(message, sequence, **values):

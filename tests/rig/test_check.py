@@ -7,7 +7,7 @@ from softgrip.board.protocol import Flag
 from softgrip.provenance import data_folder
 from softgrip.rig.__main__ import main
 from softgrip.rig.check import run_check
-from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.simulation import Simulation
 from tests.board.stub_board import StubBoard
 
 
@@ -92,7 +92,7 @@ def test_noise_is_seen():
 
     known = design_1()
     loud = replace(known, sensors=replace(known.sensors, pressure_noise=5e3))
-    code, text = checked(StubBoard(rig=SimulatedRig(loud)))
+    code, text = checked(StubBoard(rig=Simulation(loud)))
     assert code == 1
     assert "FAIL  pressure" in text
 

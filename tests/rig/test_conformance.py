@@ -22,9 +22,8 @@ from softgrip.rig.connect import connect
 from softgrip.rig.record import record
 from softgrip.rig.simulated import SimulatedConnection
 from softgrip.simulator.calibration import design_1
-from softgrip.simulator.finger import SimulatedRig
-from softgrip.simulator.gripper import GripperRig
 from softgrip.simulator.gripper_parameters import printed_gripper
+from softgrip.simulator.simulation import Simulation
 from tests.board.stub_board import StubBoard
 
 PORT = os.environ.get("SOFTGRIP_RIG_PORT", "")
@@ -66,11 +65,11 @@ def lowered(open_rig):
 
 
 def low_finger():
-    return SimulatedConnection(SimulatedRig(design_1()), pressure_limit=LOW)
+    return SimulatedConnection(Simulation(design_1()), pressure_limit=LOW)
 
 
 def low_gripper():
-    return SimulatedConnection(GripperRig(printed_gripper()), pressure_limit=LOW)
+    return SimulatedConnection(Simulation(printed_gripper(), period=0.1), pressure_limit=LOW)
 
 
 def no_limit():

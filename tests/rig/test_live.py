@@ -23,7 +23,7 @@ from softgrip.rig.live_rig import check_simulated, listens
 from softgrip.rig.simulated import SimulatedConnection
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
-from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.simulation import Simulation
 from tests.board.emulated import needs_emulator
 
 KEPT = data_folder() / "simulated" / "staircase.csv"
@@ -48,7 +48,7 @@ def run_of(rig, path, name="staircase", **options):
 
 def test_the_staircase_is_that_of_the_chapter(path):
     # The kept log was made by another loop, so that it is an oracle; its references move.
-    with SimulatedConnection(SimulatedRig(design_1(), seed=SEED)) as rig:
+    with SimulatedConnection(Simulation(design_1(), seed=SEED)) as rig:
         run = run_of(rig, path, real_time=False)
         run.start()
         assert run.wait(SOON).samples == 624

@@ -23,14 +23,12 @@ from softgrip.provenance import data_folder
 from softgrip.rig.connect import connect
 from softgrip.rig.interface import ConnectionPlant
 from softgrip.rig.record import record, show_progress
-from softgrip.rig.simulated import SimulatedConnection
+from softgrip.rig.simulated import SimulatedConnection, simulated_gripper
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.closed_loop_log import STEP
-from softgrip.simulator.finger import SimulatedRig
-from softgrip.simulator.gripper import GripperRig
 from softgrip.simulator.gripper_loop import OnTheMean
-from softgrip.simulator.gripper_parameters import printed_gripper
+from softgrip.simulator.simulation import Simulation
 
 FOLDER = data_folder() / "simulated"
 
@@ -48,7 +46,7 @@ def rig(stub):
 
 
 def finger():
-    return SimulatedConnection(SimulatedRig(design_1(), seed=SEED))
+    return SimulatedConnection(Simulation(design_1(), seed=SEED))
 
 
 class After:
@@ -100,7 +98,7 @@ def test_chapter_3_lqr_gives_the_log_of_its_own_loop():
 def test_chapter_6_scheme_gives_the_log_of_its_own_loop(path):
     kept = read_log(FOLDER / "gripper-fast-1.csv")
     targets = target_angles(own_model())
-    with SimulatedConnection(GripperRig(printed_gripper(), seed=SEED)) as gripper:
+    with simulated_gripper(seed=SEED) as gripper:
         gripper.home()
         record(gripper, gripper_controller("H 4.8/s"), 3.0, path, references=targets)
     made = read_log(path)

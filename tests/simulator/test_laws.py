@@ -16,10 +16,10 @@ from softgrip.simulator.calibration import (
     design_1,
     small_signal_poles,
 )
-from softgrip.simulator.laws import AMOUNT, ANGLE, MEMORY, RATE, SENSED_PRESSURE, Plant
+from softgrip.simulator.chance import Chance
+from softgrip.simulator.laws import AMOUNT, ANGLE, FINGERS, MEMORY, RATE, SENSED_PRESSURE, Plant
 from softgrip.units import DEG
 
-ONE = np.ones(1)
 LARGE = 1e4  # m^3 of air: its pressure does not feel the finger
 
 
@@ -28,15 +28,15 @@ def plant(*, dead_volume=None, leakage=0.0, **finger):
     gas = replace(rig.gas, leakage=leakage)
     if dead_volume:
         gas = replace(gas, dead_volume=dead_volume)
-    rig = replace(rig, finger=replace(rig.finger, **finger), gas=gas)
-    return Plant(rig, ONE, ONE, ONE)
+    rig = replace(rig, fingers=(replace(rig.finger, **finger),), gas=gas)
+    return Plant(rig, Chance(rig.spread, fingers=1, seed=0, first=0, runs=1))
 
 
 def at_pressure(own, gauge, angle=0.0):
     """Return the state at rest with the air in the large volume at a gauge pressure."""
     gas = own.parameters.gas
-    state = np.zeros((MEMORY + len(own.parameters.finger.memory), 1))
-    state[ANGLE] = angle
+    state = np.zeros((own.states, 1))
+    state[FINGERS + ANGLE] = angle
     volume = laws.finger_volume(angle, gauge, own.parameters.finger) + gas.dead_volume
     state[AMOUNT] = (gauge + gas.atmosphere) * volume
     return state
@@ -73,7 +73,7 @@ def test_power_one_without_memory_is_the_closed_second_order_response():
         run(own, state, 0.25, 0.0025)
         t = 0.25 * k
         shape = np.cos(wd * t) + zeta * wn / wd * np.sin(wd * t)
-        assert state[ANGLE, 0] == pytest.approx(
+        assert state[FINGERS + ANGLE, 0] == pytest.approx(
             end * (1 - np.exp(-zeta * wn * t) * shape), abs=1e-7
         )
 
@@ -91,10 +91,12 @@ def test_energy_is_kept_without_losses_and_falls_with_them():
     # only if the air does on the finger the work that its growing volume says.
     def energy(own, state, syringe):
         finger, gas = own.parameters.finger, own.parameters.gas
-        volume = syringe + gas.dead_volume + laws.finger_volume(state[ANGLE, 0], 0.0, finger)
-        spring = finger.stiffness * abs(state[ANGLE, 0]) ** (finger.fractional_power + 1)
+        volume = (
+            syringe + gas.dead_volume + laws.finger_volume(state[FINGERS + ANGLE, 0], 0.0, finger)
+        )
+        spring = finger.stiffness * abs(state[FINGERS + ANGLE, 0]) ** (finger.fractional_power + 1)
         return (
-            finger.inertia * state[RATE, 0] ** 2 / 2
+            finger.inertia * state[FINGERS + RATE, 0] ** 2 / 2
             + spring / (finger.fractional_power + 1)
             - state[AMOUNT, 0] * np.log(volume)
             + gas.atmosphere * volume
@@ -121,8 +123,10 @@ def test_memory_adds_its_part_to_a_fast_bend_and_fades():
     finger = own.parameters.finger
     run(own, state, 75.0, 0.0125)
     # Nine times the slowest relaxation leaves less than a part in ten thousand of 5 %.
-    assert abs(state[MEMORY:]).max() < 1e-4 * float(laws.settled_torque(FULL_ANGLE, finger))
-    assert state[ANGLE, 0] == pytest.approx(FULL_ANGLE, rel=1e-4)
+    assert abs(state[FINGERS + MEMORY :]).max() < 1e-4 * float(
+        laws.settled_torque(FULL_ANGLE, finger)
+    )
+    assert state[FINGERS + ANGLE, 0] == pytest.approx(FULL_ANGLE, rel=1e-4)
 
 
 def test_poles_are_those_of_a_differenced_plant():
@@ -131,7 +135,7 @@ def test_poles_are_those_of_a_differenced_plant():
     finger = own.parameters.finger
     gauge = laws.settled_torque(OPERATING_ANGLE, finger) / finger.torque_per_pressure
     state = at_pressure(own, gauge, OPERATING_ANGLE)
-    rows = [ANGLE, RATE, *range(MEMORY, state.shape[0])]
+    rows = [FINGERS + row for row in (ANGLE, RATE, *range(MEMORY, own.rows))]
     matrix = np.empty((len(rows), len(rows)))
     for j, row in enumerate(rows):
         sides = []

@@ -30,19 +30,21 @@ def test_all_counts_come_back_and_none_is_beyond_the_scale():
 
 def test_sensor_stops_at_the_end_of_its_range():
     quiet = np.zeros((2, 1))
-    found = measure(0.0, np.array([200 * PSI]), np.array([206 * DEG]), quiet, SENSORS)
-    assert found.angle[0] / DEG == pytest.approx(100, abs=0.1)
+    found = measure(0.0, np.array([200 * PSI]), np.array([[206 * DEG]]), quiet, SENSORS)
+    assert found.angle[0, 0] / DEG == pytest.approx(100, abs=0.1)
     assert found.pressure[0] / PSI == pytest.approx(80, abs=0.1)
 
 
-def test_noise_of_a_run_is_a_plain_sequence_of_its_stream():
-    chance = Chance(Spread(), seed=4, first=2, runs=3)
+@pytest.mark.parametrize("fingers", [1, 3])
+def test_noise_of_a_run_is_a_plain_sequence_of_its_stream(fingers):
+    chance = Chance(Spread(), fingers=fingers, seed=4, first=2, runs=3)
     drawn = np.array([chance.noise().copy() for _ in range(150)])
-    np.testing.assert_array_equal(drawn[:, :, 1], streams(4, 3)[1].standard_normal((150, 2)))
+    plain = streams(4, 3)[1].standard_normal((150, 1 + fingers))
+    np.testing.assert_array_equal(drawn[:, :, 1], plain)
 
 
 def test_no_spread_leaves_the_parameters():
-    chance = Chance(Spread(), seed=1, first=0, runs=5)
+    chance = Chance(Spread(), fingers=2, seed=1, first=0, runs=5)
     assert (chance.stiffness == 1).all()
     assert (chance.leakage == 1).all()
 

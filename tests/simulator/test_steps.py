@@ -12,8 +12,8 @@ from softgrip.logs.repeated_steps import read_step_test
 from softgrip.provenance import data_file
 from softgrip.simulator.calibration import design_1, design_3
 from softgrip.simulator.chance import SEED
-from softgrip.simulator.finger import SimulatedRig
 from softgrip.simulator.parameters import PumpParameters
+from softgrip.simulator.simulation import Simulation
 from softgrip.simulator.steps import (
     simulate_step_test,
     step_commands,
@@ -26,7 +26,7 @@ PATHS = [data_file(f"simulated/step-fx-90-{run}.csv").path for run in range(1, 8
 
 @pytest.mark.parametrize("plunger", [0.4 * MM, 1.0 * MM, 3.3 * MM, 25.3 * MM, 60 * MM])
 def test_plunger_goes_where_it_should(plunger):
-    rig = SimulatedRig(design_1())
+    rig = Simulation(design_1())
     _, truth = rig.open_loop(step_commands(plunger))
     assert truth.plunger[-1, 0] == pytest.approx(plunger, rel=1e-9)
     assert abs(truth.motor_speed).max() <= PumpParameters().speed_limit * (1 + 1e-12)

@@ -2,17 +2,14 @@
 
 from dataclasses import replace
 
-import numpy as np
-
 from softgrip.board.driver import Rig
 from softgrip.board.emulated.board import CLOCK, PRESSURE, EmulatedBoard
 from softgrip.board.emulated.link import EmulatedLink
 from softgrip.board.protocol import CHANNELS
 from softgrip.simulator.calibration import design_1
-from softgrip.simulator.finger import SimulatedRig
-from softgrip.simulator.gripper import GripperRig
 from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.parameters import PumpParameters
+from softgrip.simulator.simulation import Simulation
 
 FLEX = CHANNELS.index("flex_1")
 PERIOD = 0.005
@@ -28,20 +25,20 @@ def stiff(pump: PumpParameters) -> PumpParameters:
     return replace(pump, speed_limit=1e4, acceleration_limit=1e9)
 
 
-def finger(seed: int = 0, *, position: int = 200) -> SimulatedRig:
+def finger(seed: int = 0, *, position: int = 200) -> Simulation:
     """Return the simulated rig of Design 1, its plunger so many steps from home."""
     parameters = design_1()
     pump = stiff(parameters.pump)
     plunger = position * pump.lead / STEPS
     parameters = replace(parameters, pump=pump)
-    return SimulatedRig(parameters, seed=seed, period=PERIOD, plunger=plunger)
+    return Simulation(parameters, seed=seed, period=PERIOD, plunger=plunger)
 
 
-def gripper(seed: int = 0) -> GripperRig:
+def gripper(seed: int = 0) -> Simulation:
     """Return the simulated gripper of two fingers, its plunger drawn out."""
     parameters = printed_gripper()
     parameters = replace(parameters, pump=stiff(parameters.pump))
-    return GripperRig(parameters, seed=seed, period=PERIOD)
+    return Simulation(parameters, seed=seed, period=PERIOD)
 
 
 class EmulatedRig(EmulatedLink):
@@ -53,7 +50,7 @@ class EmulatedRig(EmulatedLink):
         Physics of one run, of `finger` or `gripper`; None for `finger`.
     """
 
-    def __init__(self, plant: SimulatedRig | GripperRig | None = None) -> None:
+    def __init__(self, plant: Simulation | None = None) -> None:
         self.plant = finger() if plant is None else plant
         step = self.plant.parameters.pump.lead / STEPS
         super().__init__(EmulatedBoard(position=round(float(self.plant.truth.plunger[0]) / step)))
@@ -68,7 +65,7 @@ class EmulatedRig(EmulatedLink):
             away = place - float(self.plant.truth.plunger[0])
             found = self.plant.advance(away / pump.advance / PERIOD)
             self.board.set_count(PRESSURE, int(found.pressure_counts[0]))
-            for k, count in enumerate(np.ravel(found.angle_counts)[:2]):
+            for k, count in enumerate(found.angle_counts[:2, 0]):
                 self.board.set_count(FLEX + k, int(count))
         self._told += periods * PERIOD
 

@@ -18,14 +18,12 @@ from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.closed_loop import run_on_rig
 from softgrip.simulator.closed_loop_log import STEP
-from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG
 
 
 def batch(regulator, runs):
-    loop = run_on_rig(
-        SimulatedRig(design_1(), runs=runs, seed=SEED), regulator, STEP, duration=20.0
-    )
+    loop = run_on_rig(Simulation(design_1(), runs=runs, seed=SEED), regulator, STEP, duration=20.0)
     return (
         step_figures(loop.result.time, loop.result.measured, STEP),
         step_figures(loop.result.time, loop.true_angle, STEP, window=0),

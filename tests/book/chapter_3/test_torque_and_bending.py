@@ -5,7 +5,7 @@ import pytest
 
 from book.chapter_3.torque_and_bending import DESIGNS, LENGTH, SCALE, blocked_torque, settled_angles
 from softgrip.errors import InvalidInputError
-from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG, MPa
 
 PRINTED_ANGLES = {"Design 1(E1)": 206, "Design 2(E1)": 201, "Design 3(E2)": 232}
@@ -42,12 +42,11 @@ def test_a_run_of_the_rig_rests_where_the_closed_form_says():
 
     rig = design_1(spread=False)
     rig = replace(rig, gas=replace(rig.gas, leakage=0.0))
-    driven = SimulatedRig(rig, period=0.025)
-    driven.advance(20.0, 0.5)
-    driven.advance(0.0, 120.0)
+    driven = Simulation(rig, period=0.025)
+    driven.open_loop([20.0] * 20 + [0.0] * 4800)
     rest = settled_angles(rig, driven.truth.pressure, runs=1)[0]
     # Dry friction may hold it a little before: 1e-4 N m of some 0.02.
-    assert float(driven.truth.angle[0]) == pytest.approx(float(rest[0]), rel=5e-3)
+    assert float(driven.truth.angle[0, 0]) == pytest.approx(float(rest[0]), rel=5e-3)
 
 
 def test_negative_pressure_is_refused():

@@ -35,7 +35,7 @@ from softgrip.simulator.calibration import (
 )
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.closed_loop import run_on_rig
-from softgrip.simulator.finger import SimulatedRig
+from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG, ML
 
 NAMES = [*CONTROLLED, *REGULATED]
@@ -51,7 +51,7 @@ def model():
 
 
 def test_rig_does_not_move_before_the_first_command():
-    rig = SimulatedRig(design_1())
+    rig = Simulation(design_1())
     angle = AnglePlant(rig).advance(0.0, 0.0)
     assert rig.time == 0
     assert rig.truth.angle == rig.truth.plunger == 0
@@ -125,11 +125,11 @@ def test_log_replayed_in_open_loop_gives_its_own_measurements(name):
     log = read_log(kept(name))
     assert log.repairs == ()
     assert np.max(np.abs(log["command"])) <= SPEED_LIMIT
-    rig = SimulatedRig(design_1(), seed=SEED, period=PERIOD)
-    first = rig.advance(0.0, 0.0)
-    assert log["angle"][0] == first.angle[0]
+    rig = Simulation(design_1(), seed=SEED, period=PERIOD)
+    first = rig.measure()
+    assert log["angle"][0] == first.angle[0, 0]
     seen, _ = rig.open_loop(log["command"][1:])
-    np.testing.assert_array_equal(seen.angle[:, 0], log["angle"][1:])
+    np.testing.assert_array_equal(seen.angle[:, 0, 0], log["angle"][1:])
 
 
 def test_figures_of_the_step_under_the_full_design():
@@ -151,7 +151,7 @@ def test_figures_of_the_step_under_the_actuator_design():
 def test_full_design_settles_sooner_on_every_finger_at_60_deg():
     settled = {}
     for name in ("actuator", "full"):
-        rig = SimulatedRig(design_1(), runs=7, seed=SEED)
+        rig = Simulation(design_1(), runs=7, seed=SEED)
         loop = run_on_rig(rig, controller(name), 60 * DEG, duration=20.0)
         truth = step_figures(loop.result.time, loop.true_angle, 60 * DEG, window=0.0)
         told = step_figures(loop.result.time, loop.result.measured, 60 * DEG)
@@ -170,7 +170,7 @@ def test_no_set_pressure_brings_the_actuator_design_to_the_printed_time():
     for set_pressure in (150e3, 100e3, 50e3, 20e3):
         pid = PID(pid_gains.pid_gains("actuator"), limits=(-SET_PRESSURE, SET_PRESSURE))
         by_share = PressureAsSpeed(pid, set_pressure=set_pressure)
-        rig = SimulatedRig(design_1(), runs=7, seed=SEED)
+        rig = Simulation(design_1(), runs=7, seed=SEED)
         loop = run_on_rig(rig, by_share, 60 * DEG, duration=20.0)
         figures = step_figures(loop.result.time, loop.result.measured, 60 * DEG)
         settled.append(float(np.median(figures.settled_5_deg)))
@@ -191,7 +191,7 @@ def test_plunger_reading_settles_without_noise_and_not_with_it(model):
     )
     found = step_figures(time, clean.measured, 60 * DEG, window=0.0)
     assert found.settled_5_percent == pytest.approx(2.75, abs=0.03)
-    rig = SimulatedRig(design_1(), runs=7, seed=SEED)
+    rig = Simulation(design_1(), runs=7, seed=SEED)
     loop = run_on_rig(rig, controller("actuator by plunger"), 60 * DEG, duration=20.0)
     assert np.isinf(step_figures(time, loop.result.measured, 60 * DEG).settled_5_deg).all()
 
