@@ -6,6 +6,7 @@ Each file of ``data/`` opens with comment lines that state it::
     # source: Table 5.1
 """
 
+import csv
 import hashlib
 from dataclasses import dataclass
 from enum import StrEnum
@@ -101,3 +102,15 @@ def describe(path: Path) -> DataFile:
             got=f"{error.args[0]!r}",
             line=1,
         ) from None
+
+
+def cells(path: Path) -> list[list[str]]:
+    """Read a CSV as strings, the columns' names first, without its lines that begin with ``#``."""
+    with path.open(encoding="utf-8", newline="") as lines:
+        return list(csv.reader(line for line in lines if not line.startswith("#")))
+
+
+def data_rows(name: str) -> list[dict[str, str]]:
+    """Read a table of ``data/`` as strings, each row by the columns' names; see `data_file`."""
+    names, *rows = cells(data_file(name).path)
+    return [dict(zip(names, row, strict=True)) for row in rows]

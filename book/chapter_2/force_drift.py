@@ -14,6 +14,7 @@ from book.chapter_2.force_protocols import LONG_WEIGHTS, long_run
 from book.chapter_2.forces import to_force, weight_points
 from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
+from softgrip.kept import write_data
 from softgrip.provenance import data_file, data_folder
 from softgrip.simulator.chance import SEED
 from softgrip.tactile.drift import DRIFT_WEIGHTS, DriftBetween, LinearDrift
@@ -114,14 +115,13 @@ def kept() -> pd.DataFrame:
 
 def write(path: Path | None = None) -> Path:
     """Make the kept errors anew, below ``data/`` or elsewhere, and return their path."""
-    target = path or data_folder() / DRIFT
-    header = (
-        f"# provenance: simulated\n# source: python -m book.chapter_2.force_drift\n"
-        f"# seed: {SEED} runs {FIRST} to {FIRST + HOURS - 1}\n"
-    )
     rows = simulate().add_suffix(" [N]").to_csv(float_format="%.6g")
-    target.write_text(header + rows, encoding="utf-8")
-    return target
+    return write_data(
+        path or data_folder() / DRIFT,
+        rows,
+        source="python -m book.chapter_2.force_drift",
+        notes=f"seed: {SEED} runs {FIRST} to {FIRST + HOURS - 1}",
+    )
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ import pandas as pd
 
 from book.chapter_2.force_logs import read
 from softgrip.arrays import Floats, read_only
+from softgrip.kept import write_data
 from softgrip.provenance import data_file, data_folder
 from softgrip.tactile.bandwidth import best_bandwidth
 from softgrip.tactile.force import Weighing
@@ -104,11 +105,9 @@ def kept_comparison() -> pd.DataFrame:
 
 def write(path: Path | None = None) -> Path:
     """Make the kept comparison anew, below ``data/`` or elsewhere, and return its path."""
-    target = path or data_folder() / COMPARISON
-    header = "# provenance: simulated\n# source: python -m book.chapter_2.forces\n"
     table = compare().to_csv(index=False, float_format="%.6g")
-    target.write_text(header + table, encoding="utf-8")
-    return target
+    target = path or data_folder() / COMPARISON
+    return write_data(target, table, source="python -m book.chapter_2.forces")
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from softgrip.kept import write_data
 from softgrip.logs.contacts import read_contacts
 from softgrip.provenance import data_file, data_folder
 from softgrip.tactile.accuracy_interval import Accuracy
@@ -143,11 +144,8 @@ def kept_neighbours() -> dict[int, list[SplitScore]]:
 def write() -> Iterator[Path]:
     """Make all files anew; yields each one when it is done (half a minute in all)."""
     for study, make in STUDIES.items():
-        path = data_folder() / "tactile" / f"kind_{study}.csv"
-        path.parent.mkdir(exist_ok=True)
-        header = "# provenance: simulated\n# source: python -m book.chapter_2.kinds\n"
-        path.write_text(header + make().to_csv(index=False), encoding="utf-8")
-        yield path
+        path = data_folder() / f"tactile/kind_{study}.csv"
+        yield write_data(path, make().to_csv(index=False), source="python -m book.chapter_2.kinds")
 
 
 if __name__ == "__main__":

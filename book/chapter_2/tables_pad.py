@@ -8,7 +8,7 @@ import pandas as pd
 from book.chapter_2.figures_pad import CALIBRATION, LOGS, contacts, errors
 from book.companion.exhibit import table
 from softgrip.provenance import Provenance
-from softgrip.simulator.calibration_table import read
+from softgrip.simulator.pad_calibration_table import KEPT
 from softgrip.tactile.contacts import KINDS
 from softgrip.units import DEG, MM
 
@@ -68,5 +68,5 @@ def table_2_d() -> pd.DataFrame:
             "pad": f"{line.rig:.3g}",
             "unit": line.unit,
         }
-        for line in read(CALIBRATION)
+        for line in KEPT.read()
     )

@@ -12,9 +12,8 @@ The command identifies the rig from its logs, designs both and writes
     by the differentiator this design swings.
 """
 
-import csv
-from dataclasses import astuple, dataclass, fields
-from pathlib import Path
+from collections.abc import Iterator
+from dataclasses import dataclass
 
 from book.chapter_4.identified_model import IdentifiedModel, identified_model
 from softgrip.control.differentiator import RobustDifferentiator
@@ -24,10 +23,9 @@ from softgrip.control.observer_feedback import ObserverFeedback
 from softgrip.control.state_feedback import StateFeedback
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import UnknownNameError
-from softgrip.provenance import data_file, data_folder
+from softgrip.kept import Kept
 
 FILE = "control/lqr_gains.csv"
-COMMAND = "python -m book.chapter_3.regulators"
 
 FAST = Weights(p=1000.0, q=(1.0, 0.03, 0.0))
 """Of `fast`. From p = 3000 on some runs of the simulated rig do not come to rest."""
@@ -78,37 +76,24 @@ def designed_on(design: str, model: IdentifiedModel) -> tuple[SecondOrder, Weigh
     return model.finger, FAST
 
 
-def write(path: Path | None = None) -> Path:
-    """Design the regulators, write the file and return its path."""
+def rows() -> Iterator[Row]:
+    """Design the regulators, `fast` on the rig that is identified from the kept logs."""
     model = identified_model()
-    target = data_folder() / FILE if path is None else path
-    target.parent.mkdir(parents=True, exist_ok=True)
-    with target.open("w", encoding="utf-8", newline="") as out:
-        out.write(f"# provenance: simulated\n# source: {COMMAND}\n")
-        table = csv.writer(out, lineterminator="\n")
-        table.writerow(entry.name for entry in fields(Row))
-        for name in ("printed", "fast"):
-            finger, weights = designed_on(name, model)
-            row = Row(
-                name,
-                weights.p,
-                *weights.q,
-                weights.R,
-                finger.natural_frequency,
-                finger.damping_ratio,
-                input_gain(finger, model.pump_gain, SPEED_LIMIT),
-                *lqr_gain(finger, weights).tolist(),
-            )
-            table.writerow(f"{x:.6g}" if isinstance(x, float) else x for x in astuple(row))
-    return target
+    for name in ("printed", "fast"):
+        finger, weights = designed_on(name, model)
+        yield Row(
+            name,
+            weights.p,
+            *weights.q,
+            weights.R,
+            finger.natural_frequency,
+            finger.damping_ratio,
+            input_gain(finger, model.pump_gain, SPEED_LIMIT),
+            *lqr_gain(finger, weights).tolist(),
+        )
 
 
-def read(path: Path | None = None) -> tuple[Row, ...]:
-    """Read the file, or another of its form."""
-    source = data_file(FILE).path if path is None else path
-    with source.open(encoding="utf-8", newline="") as lines:
-        rows = list(csv.reader(line for line in lines if not line.startswith("#")))[1:]
-    return tuple(Row(name, *map(float, numbers)) for name, *numbers in rows)
+KEPT = Kept(FILE, Row, rows, "python -m book.chapter_3.regulators")
 
 
 def regulator(design: str) -> Controller:
@@ -119,7 +104,7 @@ def regulator(design: str) -> Controller:
     UnknownNameError
         If there is no such design.
     """
-    known = {row.design: row for row in read()}
+    known = {row.design: row for row in KEPT.read()}
     if design not in known:
         raise UnknownNameError("regulator", design, list(known))
     row = known[design]
@@ -131,4 +116,4 @@ def regulator(design: str) -> Controller:
 
 
 if __name__ == "__main__":
-    print(write())
+    KEPT.main()

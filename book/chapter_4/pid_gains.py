@@ -4,18 +4,16 @@ The command identifies the rig from its logs, designs both controllers on what i
 ``data/control/pid_gains.csv``. The logs of the controllers are made with what stands there.
 """
 
-import csv
-from dataclasses import astuple, dataclass, fields
-from pathlib import Path
+from collections.abc import Iterator
+from dataclasses import astuple, dataclass
 
 from book.chapter_4.identified_model import IdentifiedModel, identified_model
 from softgrip.control.designs import Design, actuator_design, full_design
 from softgrip.control.pid import Gains
 from softgrip.errors import UnknownNameError
-from softgrip.provenance import data_file, data_folder
+from softgrip.kept import Kept
 
 FILE = "control/pid_gains.csv"
-COMMAND = "python -m book.chapter_4.pid_gains"
 MODELS = {"actuator": "Eq. (4.14)", "full": "Eq. (4.15)"}
 STAGES = ("ziegler-nichols", "tuned")
 
@@ -54,38 +52,25 @@ def designs(model: IdentifiedModel, *, evaluations: int = 300) -> dict[str, Desi
     }
 
 
-def write(path: Path | None = None) -> Path:
-    """Design the controllers, write the file and return its path."""
+def rows() -> Iterator[Row]:
+    """Design the controllers on the rig that is identified from the kept logs."""
+    for name, design in designs(identified_model()).items():
+        unit = "Pa" if name == "actuator" else "rad/s"
+        for stage, gains in zip(STAGES, (design.tuned.start, design.gains), strict=True):
+            yield Row(name, MODELS[name], stage, unit, *astuple(gains))
+
+
+def _designed_on() -> str:
     model = identified_model()
-    target = data_folder() / FILE if path is None else path
-    target.parent.mkdir(parents=True, exist_ok=True)
     finger = model.finger
-    with target.open("w", encoding="utf-8", newline="") as out:
-        out.write(f"# provenance: simulated\n# source: {COMMAND}\n")
-        out.write(
-            f"# designed on: omega_n = {finger.natural_frequency:.4g} rad/s; "
-            f"zeta = {finger.damping_ratio:.4g}; gain = {finger.gain:.4g} rad/Pa; "
-            f"C_i = {model.capacity:.4g} m^3/Pa\n"
-        )
-        table = csv.writer(out, lineterminator="\n")
-        table.writerow(entry.name for entry in fields(Row))
-        for name, design in designs(model).items():
-            unit = "Pa" if name == "actuator" else "rad/s"
-            for stage, gains in zip(STAGES, (design.tuned.start, design.gains), strict=True):
-                row = Row(name, MODELS[name], stage, unit, *astuple(gains))
-                table.writerow(f"{x:.6g}" if isinstance(x, float) else x for x in astuple(row))
-    return target
-
-
-def read(path: Path | None = None) -> tuple[Row, ...]:
-    """Read the file, or another of its form."""
-    source = data_file(FILE).path if path is None else path
-    with source.open(encoding="utf-8", newline="") as lines:
-        rows = list(csv.reader(line for line in lines if not line.startswith("#")))[1:]
-    return tuple(
-        Row(design, model, stage, unit, *map(float, gains))
-        for design, model, stage, unit, *gains in rows
+    return (
+        f"designed on: omega_n = {finger.natural_frequency:.4g} rad/s; "
+        f"zeta = {finger.damping_ratio:.4g}; gain = {finger.gain:.4g} rad/Pa; "
+        f"C_i = {model.capacity:.4g} m^3/Pa"
     )
+
+
+KEPT = Kept(FILE, Row, rows, "python -m book.chapter_4.pid_gains", _designed_on)
 
 
 def pid_gains(design: str, stage: str = "tuned") -> Gains:
@@ -103,7 +88,7 @@ def pid_gains(design: str, stage: str = "tuned") -> Gains:
     """
     known = {
         (row.design, row.stage): Gains(row.kp, row.ki, row.kd, row.derivative_filter)
-        for row in read()
+        for row in KEPT.read()
     }
     if (design, stage) not in known:
         names = [" ".join(key) for key in known]
@@ -112,4 +97,4 @@ def pid_gains(design: str, stage: str = "tuned") -> Gains:
 
 
 if __name__ == "__main__":
-    print(write())
+    KEPT.main()

@@ -17,7 +17,7 @@ from softgrip.provenance import Provenance
 from softgrip.pump.finger import Finger
 from softgrip.pump.flow import TABLE_4_1, Pump, flow
 from softgrip.pump.sizing import Sizing, sizings
-from softgrip.simulator.calibration_table import read
+from softgrip.simulator.calibration_table import KEPT
 from softgrip.units import DEG, ML, MM, REV, MPa
 
 CALIBRATION = "calibration/simulated_rig.csv"
@@ -116,7 +116,7 @@ def table_4_b() -> pd.DataFrame:
             "unit": entry.unit,
             "sets": entry.parameter,
         }
-        for entry in read()
+        for entry in KEPT.read()
     )
 
 

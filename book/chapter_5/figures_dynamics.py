@@ -15,7 +15,7 @@ from softgrip.units import DEG
 
 COLOURS = {"linear": (LINEAR, "-."), "ludwick": (LUDWICK, "--")}
 WORDS = {"linear": "linear (5.17)", "ludwick": "Ludwick (5.16)"}
-SWEEP = step_sweep.FILE
+SWEEP = step_sweep.KEPT.file
 BOUND = 3.0
 """deg: the upper end of what Section 5.4 puts down to the material itself."""
 
@@ -111,7 +111,7 @@ def figure_5_c() -> Figure:
         ("ludwick", "Ludwick, identified at 60 deg", LUDWICK, "x--"),
     )
     for axes, design in zip(drawn.subplots(2, 1, sharex=True), FINGERS, strict=True):
-        points = [point for point in step_sweep.read() if point.design == design]
+        points = [point for point in step_sweep.KEPT.read() if point.design == design]
         angles = np.array([point.angle for point in points])
         for name, label, colour, marks in lines:
             errors = [getattr(point, name) for point in points]

@@ -130,7 +130,7 @@ def extreme_rms(end: str, kind: Kind) -> float:
 @simulated
 def linear_limit(design: str, bound: float = 3.0) -> float:
     """Return up to which step one linear model stays within a bound on the simulated rig, deg."""
-    points = [point for point in step_sweep.read() if point.design == design]
+    points = [point for point in step_sweep.KEPT.read() if point.design == design]
     errors = [point.linear_range for point in points]
     return float(np.interp(bound, errors, [point.angle for point in points]))
 

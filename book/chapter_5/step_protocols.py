@@ -3,9 +3,9 @@
 ``python -m book.chapter_5.step_protocols`` writes ``data/dynamics/step_test_errors.csv``.
 """
 
-import csv
-from collections.abc import Callable
-from pathlib import Path
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
@@ -25,14 +25,12 @@ from softgrip.arrays import Floats
 from softgrip.dynamics import linear, ludwick
 from softgrip.dynamics.ludwick_fit import fit_finger
 from softgrip.errors import InvalidInputError
+from softgrip.kept import Kept
 from softgrip.materials.table import material
-from softgrip.provenance import data_file, data_folder
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.steps import simulate_step_test, travel_to
 from softgrip.units import DEG, MM
 
-FILE = "dynamics/step_test_errors.csv"
-COMMAND = "python -m book.chapter_5.step_protocols"
 SIZE = {"width": 30 * MM, "height": 24 * MM, "length": 94 * MM}
 """Of both fingers (Section 3.4)."""
 SMALL = 30
@@ -125,44 +123,47 @@ PROTOCOLS: dict[str, Model] = {
 """Ways to make the models, by name."""
 
 
-def errors(model: Model) -> list[float]:
-    """Return the eight RMS errors, deg: by finger, angle, and linear before Ludwick.
+@dataclass(frozen=True)
+class Misfit:
+    """How far a model made in one way is from one test."""
 
-    NaN where the record does not determine the model.
-    """
-    found = []
-    for design in FINGERS:
-        for angle in ANGLES:
-            for kind in KINDS:
-                try:
-                    made = model(design, kind, angle)
-                    found.append(rms_error(made, kept_test(design, angle)) / DEG)
-                except InvalidInputError:
-                    found.append(float("nan"))
+    protocol: str
+    design: str
+    angle: int
+    """Of the test, deg."""
+    kind: Kind
+    error: float
+    """RMS, deg; NaN where the record does not determine the model."""
+
+
+def errors(protocols: Iterable[str] = PROTOCOLS) -> Iterator[Misfit]:
+    """Hold the models of protocols, by name, against the tests."""
+    for name, design, angle, kind in product(protocols, FINGERS, ANGLES, KINDS):
+        try:
+            made = PROTOCOLS[name](design, kind, angle)
+            error = rms_error(made, kept_test(design, angle)) / DEG
+        except InvalidInputError:
+            error = float("nan")
+        yield Misfit(name, design, angle, kind, error)
+
+
+KEPT = Kept(
+    "dynamics/step_test_errors.csv",
+    Misfit,
+    errors,
+    "python -m book.chapter_5.step_protocols",
+    notes="RMS errors in deg",
+    number=".4g",
+)
+
+
+def kept_errors() -> dict[str, dict[tuple[str, int, Kind], float]]:
+    """Read the kept errors, deg, by protocol and then by (design, angle, kind)."""
+    found: dict[str, dict[tuple[str, int, Kind], float]] = {}
+    for row in KEPT.read():
+        found.setdefault(row.protocol, {})[row.design, row.angle, row.kind] = row.error
     return found
 
 
-def write(path: Path | None = None) -> Path:
-    """Write the errors under each protocol and return the path."""
-    target = data_folder() / FILE if path is None else path
-    target.parent.mkdir(parents=True, exist_ok=True)
-    names = [f"{d} {a} {k}" for d in FINGERS for a in ANGLES for k in KINDS]
-    with target.open("w", encoding="utf-8", newline="") as out:
-        out.write(f"# provenance: simulated\n# source: {COMMAND}\n# RMS errors in deg\n")
-        table = csv.writer(out, lineterminator="\n")
-        table.writerow(["protocol", *names])
-        for name, model in PROTOCOLS.items():
-            table.writerow([name, *(f"{error:.4g}" for error in errors(model))])
-    return target
-
-
-def read() -> dict[str, dict[tuple[str, int, Kind], float]]:
-    """Read the kept errors, deg, by protocol and then by (design, angle, kind)."""
-    keys = [(d, a, k) for d in FINGERS for a in ANGLES for k in KINDS]
-    with data_file(FILE).path.open(encoding="utf-8", newline="") as lines:
-        rows = list(csv.reader(line for line in lines if not line.startswith("#")))[1:]
-    return {row[0]: dict(zip(keys, map(float, row[1:]), strict=True)) for row in rows}
-
-
 if __name__ == "__main__":
-    print(write())
+    KEPT.main()

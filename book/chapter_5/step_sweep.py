@@ -6,10 +6,8 @@ of seven runs. The rig's own spring is one of Ludwick's law: that this law fares
 finding. What the linear model loses is.
 """
 
-import csv
-from collections.abc import Sequence
-from dataclasses import astuple, dataclass, fields
-from pathlib import Path
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import minimize
@@ -26,15 +24,13 @@ from softgrip.arrays import Floats
 from softgrip.dynamics.linear import second_order
 from softgrip.dynamics.sampled_response import response
 from softgrip.dynamics.second_order import SecondOrder
+from softgrip.kept import Kept
 from softgrip.logs.repeated_steps import StepTest
-from softgrip.provenance import data_file, data_folder
 from softgrip.simulator.calibration import design_1, design_3
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.steps import simulate_step_test, travel_to
 from softgrip.units import DEG
 
-FILE = "dynamics/step_sweep.csv"
-COMMAND = "python -m book.chapter_5.step_sweep"
 ANGLES = tuple(range(10, 141, 10))
 RIGS = {"Design 1": design_1, "Design 2": design_3}
 
@@ -94,9 +90,8 @@ def one_for_all(tests: Sequence[StepTest], start: SecondOrder) -> tuple[SecondOr
     return system(found.x), float(found.fun)
 
 
-def sweep() -> list[SweepPoint]:
+def sweep() -> Iterator[SweepPoint]:
     """Simulate the steps and hold the models against them; takes a minute."""
-    points = []
     for design, rig in RIGS.items():
         tests: list[StepTest] = []
         start = second_order(identified_at(design, "linear").finger, FORCE_PER_PRESSURE)
@@ -112,29 +107,17 @@ def sweep() -> list[SweepPoint]:
                 worst,
                 float(np.sqrt(np.mean((test.angles - test.angle) ** 2))),
             ]
-            points.append(SweepPoint(design, angle, *(error / DEG for error in errors)))
-    return points
+            yield SweepPoint(design, angle, *(error / DEG for error in errors))
 
 
-def write(path: Path | None = None) -> Path:
-    """Write the sweep and return its path."""
-    target = data_folder() / FILE if path is None else path
-    target.parent.mkdir(parents=True, exist_ok=True)
-    with target.open("w", encoding="utf-8", newline="") as out:
-        out.write(f"# provenance: simulated\n# source: {COMMAND}\n# angle and errors in deg\n")
-        table = csv.writer(out, lineterminator="\n")
-        table.writerow(field.name for field in fields(SweepPoint))
-        for point in sweep():
-            table.writerow(f"{x:.4g}" if isinstance(x, float) else x for x in astuple(point))
-    return target
-
-
-def read() -> list[SweepPoint]:
-    """Read the kept sweep."""
-    with data_file(FILE).path.open(encoding="utf-8", newline="") as lines:
-        rows = list(csv.reader(line for line in lines if not line.startswith("#")))[1:]
-    return [SweepPoint(row[0], int(row[1]), *map(float, row[2:])) for row in rows]
-
+KEPT = Kept(
+    "dynamics/step_sweep.csv",
+    SweepPoint,
+    sweep,
+    "python -m book.chapter_5.step_sweep",
+    notes="angle and errors in deg",
+    number=".4g",
+)
 
 if __name__ == "__main__":
-    print(write())
+    KEPT.main()

@@ -79,11 +79,11 @@ def table_5_d() -> pd.DataFrame:
     "step to 30 deg. Step: driven by a step of the force that holds the set point in the place of "
     "the measured pressure. Stated K: stiffness by Eq. (5.10) and (5.13).",
     provenance=Provenance.SIMULATED,
-    data=(step_test_protocols.FILE,),
+    data=(step_test_protocols.KEPT.file,),
 )
 def table_5_e() -> pd.DataFrame:
     """Tabulate the eight errors under each protocol."""
-    kept = step_test_protocols.read()
+    kept = step_test_protocols.kept_errors()
     return pd.DataFrame(
         {
             "test": f"{design}, {angle} deg",

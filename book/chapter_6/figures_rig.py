@@ -121,7 +121,7 @@ def figure_6_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     "lie above those of the fast ones. The two histograms of errors at rest are alike, each with a "
     "standard deviation of one and a half degrees.",
     provenance=Provenance.SIMULATED,
-    data=(*names_of("open"), *names_of("low-speed"), gripper_speed.FILE),
+    data=(*names_of("open"), *names_of("low-speed"), gripper_speed.KEPT.file),
 )
 def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw steps at two speeds; ``logs`` gives other runs, those at high speed first.
@@ -129,7 +129,7 @@ def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     The histogram is then that of these runs.
     """
     both = groups(logs, ("open", "low-speed"))
-    spreads = {spread.speed: spread for spread in gripper_speed.read()}
+    spreads = {spread.speed: spread for spread in gripper_speed.kept_errors()}
     words = (("high speed", BLUE, "-", 5.0), ("low speed", ORANGE, "--", 0.1))
     drawn = Figure(figsize=(WIDTH, 7.4))
     steps, weights, errors = drawn.subplots(3, 1)

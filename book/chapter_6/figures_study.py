@@ -73,13 +73,13 @@ def outcome(name: str, *, pairs: int = PAIRS) -> Outcome:
     "at rest is three degrees with two fingers and six with five; the difference on the way is 10 "
     "and 29 percent, and grows faster where the time begins to bind.",
     provenance=Provenance.SIMULATED,
-    data=(finger_count.FILE,),
+    data=(finger_count.KEPT.file,),
 )
 def figure_6_d() -> Figure:
     """Draw what more fingers and more spread cost."""
     drawn = Figure(figsize=(WIDTH, 5.0))
     top, low = drawn.subplots(2, 1, sharex=True)
-    points = finger_count.read()
+    points = finger_count.KEPT.read()
     styles = zip((BLUE, ORANGE, GREEN, PURPLE), ("-", "--", "-.", ":"), strict=True)
     for count, (colour, line) in zip(finger_count.COUNTS, styles, strict=True):
         own = [p for p in points if p.fingers == count]

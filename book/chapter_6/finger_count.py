@@ -3,9 +3,8 @@
 ``python -m book.chapter_6.finger_count`` writes ``data/gripper/finger_count.csv``.
 """
 
-import csv
-from dataclasses import astuple, dataclass, fields
-from pathlib import Path
+from collections.abc import Iterator
+from dataclasses import astuple, dataclass
 
 import numpy as np
 
@@ -13,11 +12,9 @@ from softgrip.errors import InvalidInputError
 from softgrip.gripper.optimal_feedforward import optimal_feedforward
 from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper
 from softgrip.gripper.reach import project
-from softgrip.provenance import data_file, data_folder
+from softgrip.kept import Kept
 from softgrip.units import DEG
 
-FILE = "gripper/finger_count.csv"
-COMMAND = "python -m book.chapter_6.finger_count"
 COUNTS = (2, 3, 4, 5)
 SPREADS = (0.0, 0.025, 0.05, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2)
 TARGET = 45 * DEG
@@ -87,27 +84,21 @@ def count_point(fingers: int, spread: float) -> CountPoint:
     return CountPoint(fingers, spread, found.share, worst, max(best.worst_sync, 0.0))
 
 
-def write(path: Path | None = None) -> Path:
-    """Write all points and return the path."""
-    target = data_folder() / FILE if path is None else path
-    target.parent.mkdir(parents=True, exist_ok=True)
-    with target.open("w", encoding="utf-8", newline="") as out:
-        out.write(f"# provenance: simulated\n# source: {COMMAND}\n# worst_residual in deg\n")
-        table = csv.writer(out, lineterminator="\n")
-        table.writerow(field.name for field in fields(CountPoint))
-        for count in COUNTS:
-            for spread in SPREADS:
-                point = astuple(count_point(count, spread))
-                table.writerow(f"{round(x, 9):.4g}" if isinstance(x, float) else x for x in point)
-    return target
+def points() -> Iterator[CountPoint]:
+    """Compute all points; what is below 1e-9 is the optimiser's zero."""
+    for count in COUNTS:
+        for spread in SPREADS:
+            yield CountPoint(*(round(x, 9) for x in astuple(count_point(count, spread))))
 
 
-def read() -> list[CountPoint]:
-    """Read the kept points."""
-    with data_file(FILE).path.open(encoding="utf-8", newline="") as lines:
-        rows = list(csv.reader(line for line in lines if not line.startswith("#")))[1:]
-    return [CountPoint(int(row[0]), *map(float, row[1:])) for row in rows]
-
+KEPT = Kept(
+    "gripper/finger_count.csv",
+    CountPoint,
+    points,
+    "python -m book.chapter_6.finger_count",
+    notes="worst_residual in deg",
+    number=".4g",
+)
 
 if __name__ == "__main__":
-    print(write())
+    KEPT.main()

@@ -194,7 +194,7 @@ def spread_at_rest(speed: float) -> float:
 
     ``speed`` is one of `speed.SPEEDS`, rev/s.
     """
-    found = {spread.speed: spread for spread in gripper_speed.read()}
+    found = {spread.speed: spread for spread in gripper_speed.kept_errors()}
     return float(found[speed].measured.std(ddof=1))
 
 

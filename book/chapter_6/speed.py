@@ -5,24 +5,21 @@ travel at several motor speeds, where the left finger of the simulated gripper c
 run, less the mean over the runs. The mean of its last second, as it is and as its sensor has it.
 """
 
-import csv
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Iterator
+from dataclasses import astuple, dataclass
 
 import numpy as np
 
 from book.chapter_6.logs import REST, low_speed_commands
 from softgrip.arrays import Floats
 from softgrip.gripper.internal_model import PERIOD
-from softgrip.provenance import data_file, data_folder
+from softgrip.kept import Kept
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.gripper_loop import CommandSequence, drive_gripper
 from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG, REV
 
-FILE = "gripper/speed_spread.csv"
-COMMAND = "python -m book.chapter_6.speed"
 SPEEDS = (5.0, 1.0, 0.5, 0.2, 0.1, 0.05)
 """rev/s."""
 RUNS = 200
@@ -61,25 +58,39 @@ def errors_at(speed: float, *, runs: int = RUNS, seed: int = SEED) -> SpeedSprea
     return SpeedSpread(speed, true - true.mean(), measured - measured.mean())
 
 
-def write(path: Path | None = None) -> Path:
-    """Write the errors and return the path of the file."""
-    target = data_folder() / FILE if path is None else path
-    target.parent.mkdir(parents=True, exist_ok=True)
-    with target.open("w", encoding="utf-8", newline="") as out:
-        out.write(f"# provenance: simulated\n# source: {COMMAND}\n# rev/s, then deg\n")
-        table = csv.writer(out, lineterminator="\n")
-        table.writerow(("speed", "run", "true", "measured"))
-        for found in map(errors_at, SPEEDS):
-            for run, pair in enumerate(zip(found.true, found.measured, strict=True)):
-                table.writerow((found.speed, run, *(f"{x:.3f}" for x in pair)))
-    return target
+@dataclass(frozen=True)
+class RunError:
+    """Errors of one run, as of `SpeedSpread`."""
+
+    speed: float
+    run: int
+    true: float
+    measured: float
 
 
-def read() -> tuple[SpeedSpread, ...]:
+def run_errors() -> Iterator[RunError]:
+    """Simulate the steps at all speeds."""
+    for found in map(errors_at, SPEEDS):
+        for run, errors in enumerate(zip(found.true, found.measured, strict=True)):
+            yield RunError(found.speed, run, *errors)
+
+
+KEPT = Kept(
+    "gripper/speed_spread.csv",
+    RunError,
+    run_errors,
+    "python -m book.chapter_6.speed",
+    notes="rev/s, then deg",
+    number=".3f",
+    exact=("speed",),
+)
+
+
+def kept_errors() -> tuple[SpeedSpread, ...]:
     """Read the kept errors, the highest speed first."""
-    table = np.loadtxt(data_file(FILE).path, delimiter=",", skiprows=4)
+    table = np.array([astuple(row) for row in KEPT.read()])
     return tuple(SpeedSpread(speed, *table[table[:, 0] == speed][:, 2:].T) for speed in SPEEDS)
 
 
 if __name__ == "__main__":
-    print(write())
+    KEPT.main()

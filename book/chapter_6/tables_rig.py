@@ -132,7 +132,7 @@ def table_6_j() -> pd.DataFrame:
     "second order, fitted by Eq. (6.18) to the models that seven runs identify without noise; a "
     "push that is slower than the finger identifies none.",
     provenance=Provenance.SIMULATED,
-    data=(gripper_speed.FILE,),
+    data=(gripper_speed.KEPT.file,),
 )
 def table_6_k() -> pd.DataFrame:
     """Tabulate the spread over the speed."""
@@ -143,7 +143,7 @@ def table_6_k() -> pd.DataFrame:
             "measured": f"{spread.measured.std(ddof=1):.2f}",
             "weight (%)": _percent(largest_weight(spread.speed * REV)),
         }
-        for spread in gripper_speed.read()
+        for spread in gripper_speed.kept_errors()
     )
 
 

@@ -1,25 +1,33 @@
 """What the firmware did on the emulated board, from a kept file."""
 
-import csv
+from dataclasses import dataclass
 
 import pandas as pd
 
 from book.live.protocol import BITS, telemetry_bytes
 from softgrip.board.firmware.header import build
 from softgrip.board.protocol import BAUD
-from softgrip.provenance import data_file
+from softgrip.provenance import data_file, data_rows
 
 FILE = "rig/emulated_board.csv"
 EMULATED_BITS = BITS + 1
 """Bit times of a byte on the emulated line: simavr 1.6 counts a parity bit that 8N1 has not."""
-COLUMNS = ("what", "value", "unit", "wanted", "how")
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What was measured on the emulated board, what is wanted of it, and how it was measured."""
+
+    what: str
+    value: float
+    unit: str
+    wanted: str
+    how: str
 
 
 def emulated_table() -> pd.DataFrame:
     """Tabulate what was measured on the emulated board; no real board was tried."""
-    with data_file(FILE).path.open(encoding="utf-8", newline="") as lines:
-        rows = list(csv.reader(line for line in lines if not line.startswith("#")))
-    table = pd.DataFrame(rows[1:], columns=rows[0])
+    table = pd.DataFrame(data_rows(FILE))
     return table.assign(what=table["what"].str.removeprefix("board, "))
 
 

@@ -3,9 +3,10 @@
 The columns hold SI units, per pascal where the result is proportional to the pressure.
 """
 
-import csv
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import starmap
 from types import MappingProxyType
 
 from softgrip.actuator.elasticity import Elastic
@@ -13,7 +14,7 @@ from softgrip.actuator.fem import solve, tip_response
 from softgrip.actuator.finger_mesh import FingerShape, finger_mesh
 from softgrip.actuator.printed import table_3_1
 from softgrip.errors import UnknownNameError
-from softgrip.provenance import data_file, data_folder
+from softgrip.kept import Kept
 
 OPTIMUM = "Opt. parameters"
 SIZE = 0.002
@@ -104,8 +105,19 @@ TABLES: Mapping[str, Sequence[tuple[str, int, float, float]]] = MappingProxyType
 )
 """The kept files and the arguments of `compute` for their rows."""
 
+KEPT = {
+    table: Kept(
+        f"fem/{table}.csv",
+        FemResult,
+        partial(starmap, compute, cases),
+        "python -m softgrip.actuator.fem_results",
+        columns=COLUMNS,
+    )
+    for table, cases in TABLES.items()
+}
 
-def read(table: str) -> list[FemResult]:
+
+def read(table: str) -> tuple[FemResult, ...]:
     """Read a kept file of ``data/fem/``.
 
     Parameters
@@ -120,37 +132,9 @@ def read(table: str) -> list[FemResult]:
     """
     if table not in TABLES:
         raise UnknownNameError("table", table, list(TABLES))
-    with data_file(f"fem/{table}.csv").path.open(encoding="utf-8", newline="") as stream:
-        rows = csv.reader(line for line in stream if not line.startswith("#"))
-        next(rows)
-        return [
-            FemResult(design, int(n), float(floor), float(size), int(unknowns), *map(float, found))
-            for design, n, floor, size, unknowns, *found in rows
-        ]
-
-
-def write() -> Iterator[FemResult]:
-    """Compute all rows and keep them; yields each one when it is done (4 minutes in all)."""
-    (data_folder() / "fem").mkdir(exist_ok=True)
-    for table, cases in TABLES.items():
-        results = []
-        for case in cases:
-            results.append(compute(*case))
-            yield results[-1]
-        lines = [
-            "# provenance: simulated",
-            "# source: python -m softgrip.actuator.fem_results",
-            ",".join(COLUMNS),
-            *(",".join(_text(value) for value in astuple(result)) for result in results),
-        ]
-        path = data_folder() / "fem" / f"{table}.csv"
-        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
-
-
-def _text(value: object) -> str:
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    return KEPT[table].read()
 
 
 if __name__ == "__main__":
-    for found in write():
-        print(found, flush=True)
+    for kept in KEPT.values():
+        kept.main()

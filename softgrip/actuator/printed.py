@@ -1,6 +1,5 @@
 """The sections and frequencies that Tables 3.1 to 3.3 print, in SI."""
 
-import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -9,7 +8,7 @@ from types import MappingProxyType
 from softgrip.actuator.design import Bounds, DesignProblem, FrequencyBand
 from softgrip.actuator.section import Section
 from softgrip.errors import UnknownNameError
-from softgrip.provenance import data_file
+from softgrip.provenance import data_rows
 from softgrip.units import MM, MPa
 
 FREQUENCY_POWER = 1.045
@@ -83,11 +82,6 @@ class FrequencyRow:
     error: float
 
 
-def _rows(name: str) -> list[dict[str, str]]:
-    with data_file(f"actuator/{name}.csv").path.open(encoding="utf-8", newline="") as lines:
-        return list(csv.DictReader(line for line in lines if not line.startswith("#")))
-
-
 def _section(row: Mapping[str, str]) -> Section:
     # Rounded, since 14.4 times 0.001 is not 0.0144 in binary.
     def length(name: str) -> float:
@@ -105,7 +99,8 @@ def table_3_1() -> Mapping[str, Section]:
     >>> table_3_1()["Variance 1"].width
     0.029
     """
-    return MappingProxyType({row["name"]: _section(row) for row in _rows("table_3_1")})
+    rows = data_rows("actuator/table_3_1.csv")
+    return MappingProxyType({row["name"]: _section(row) for row in rows})
 
 
 def section(name: str) -> Section:
@@ -121,7 +116,7 @@ def table_3_2() -> tuple[BandRow, ...]:
     """Read Table 3.2, in the printed order."""
     return tuple(
         BandRow(float(row["low"]), float(row["high"]), float(row["measured"]), _section(row))
-        for row in _rows("table_3_2")
+        for row in data_rows("actuator/table_3_2.csv")
     )
 
 
@@ -144,11 +139,11 @@ def table_3_3() -> Mapping[str, FrequencyRow]:
                 estimated=float(row["estimated"]),
                 error=float(row["error"]),
             )
-            for row in _rows("table_3_3")
+            for row in data_rows("actuator/table_3_3.csv")
         }
     )
 
 
 def table_3_4() -> list[dict[str, str]]:
     """Read Table 3.4, cells as printed; all but the first row are of other literature."""
-    return _rows("table_3_4")
+    return data_rows("actuator/table_3_4.csv")

@@ -11,7 +11,7 @@ from scipy.stats import linregress
 from softgrip.arrays import Floats
 from softgrip.board.errors import WrongBoardError
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.provenance import Provenance, describe
+from softgrip.provenance import Provenance, cells, describe
 from softgrip.simulator.parameters import SensorParameters
 
 ANY_BOARD = "any"
@@ -163,7 +163,7 @@ def load(path: Path | str) -> BoardCalibration:
     describe(file)
     text = file.read_text(encoding="utf-8").splitlines()
     boards = [line.partition(":")[2].strip() for line in text if line.startswith("# board:")]
-    rows = list(csv.reader(line for line in text if not line.startswith("#")))
+    rows = cells(file)
     if len(boards) != 1 or not rows or tuple(rows[0]) != COLUMNS or len(rows) < 3:
         raise DataFileError(
             file, expected=f"a line '# board:', and the columns {COLUMNS}", got=str(rows[:1])

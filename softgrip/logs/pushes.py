@@ -1,7 +1,6 @@
 """The three pressure models of Chapter 4 held against a log of a push, whichever rig made it."""
 
-import csv
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -10,6 +9,7 @@ from scipy.optimize import least_squares
 
 from softgrip.arrays import Floats
 from softgrip.errors import DataFileError
+from softgrip.kept import Kept
 from softgrip.logs.gaps import intervals
 from softgrip.logs.pump import pump_of
 from softgrip.logs.reader import read_log
@@ -26,7 +26,6 @@ LOW = 0.03 * MPa
 HIGH = 0.10 * MPa
 """Gauge pressure, Pa, above which Section 4.3 states the errors."""
 FIRST_GUESS = NoiseLevels(pressure_step=50.0, elastance_step=1e6, sensor=700.0)
-NOISE = "control/filter_noise.csv"
 REFERENCE = "simulated/push-a.csv"
 """The record whose noise levels are used for all: those of one sensor and one finger."""
 
@@ -97,21 +96,22 @@ def measure_noise() -> NoiseEstimate:
     return estimate_noise(log["pressure"], flow, log["angle"], model, steps=steps)
 
 
-def write_noise() -> None:
-    """Keep what `measure_noise` gave; ``python -m softgrip.logs.pushes`` calls it."""
-    path = data_file(NOISE).path
-    header = "".join(line for line in path.open(encoding="utf-8") if line.startswith("#"))
-    levels = asdict(measure_noise().levels)
-    rows = "\n".join(f"{name},{level:.4g}" for name, level in levels.items())
-    path.write_text(f"{header}level,value\n{rows}\n", encoding="utf-8")
+KEPT = Kept(
+    "control/filter_noise.csv",
+    NoiseLevels,
+    lambda: [measure_noise().levels],
+    "python -m softgrip.logs.pushes",
+    notes=f"Noise levels of the elastance filter, of largest likelihood on {REFERENCE}:\n"
+    "pressure_step Pa, elastance_step Pa/m^3, sensor Pa.",
+    number=".4g",
+)
 
 
 @cache
 def reference_noise() -> NoiseLevels:
     """Read the kept noise levels of the filter."""
-    with data_file(NOISE).path.open(encoding="utf-8", newline="") as stream:
-        rows = csv.DictReader(line for line in stream if not line.startswith("#"))
-        return NoiseLevels(**{row["level"]: float(row["value"]) for row in rows})
+    (levels,) = KEPT.read()
+    return levels
 
 
 def prior(capacity: float) -> Prior:
@@ -166,4 +166,4 @@ def compare(path: Path | str, *, noise_factor: float = 1.0) -> PressureCompariso
 
 
 if __name__ == "__main__":
-    write_noise()
+    KEPT.main()

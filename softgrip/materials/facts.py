@@ -3,18 +3,16 @@
 They let the pages be built, and the ledger be judged, where the tests cannot be had.
 """
 
-import csv
 from collections.abc import Mapping
-from dataclasses import astuple, dataclass, fields
+from dataclasses import dataclass
 from functools import cache
 from types import MappingProxyType
 
+from softgrip.kept import Kept
 from softgrip.materials import tensile, yeoh
 from softgrip.materials.table import table_5_1
 from softgrip.materials.tensile import TensileTest
-from softgrip.provenance import data_file
-
-FACTS = "materials/tensile_facts.csv"
+from softgrip.provenance import Provenance
 
 
 @dataclass(frozen=True)
@@ -68,28 +66,20 @@ def measure_facts(test: TensileTest) -> TensileFacts:
     )
 
 
+KEPT = Kept(
+    "materials/tensile_facts.csv",
+    TensileFacts,
+    lambda: (measure_facts(tensile.load(name)) for name in table_5_1()),
+    "Soft Robotics Materials Database (doi 10.1089/soro.2019.0115), reduced by: "
+    "python -m softgrip.materials",
+    notes="Stresses and Yeoh coefficients in Pa, engineering stress and strain. "
+    "No measurement is contained.",
+    number=".7g",
+    provenance=Provenance.PUBLIC,
+)
+
+
 @cache
 def facts() -> Mapping[str, TensileFacts]:
     """Read the kept facts of the ten materials, by name."""
-    with data_file(FACTS).path.open(encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
-    return MappingProxyType(
-        {
-            row["name"]: TensileFacts(
-                name=row["name"], **{f.name: float(row[f.name]) for f in fields(TensileFacts)[1:]}
-            )
-            for row in rows
-        }
-    )
-
-
-def write() -> None:
-    """Keep the facts of all ten tests; ``python -m softgrip.materials`` calls it."""
-    path = data_file(FACTS).path
-    header = "".join(line for line in path.open(encoding="utf-8") if line.startswith("#"))
-    columns = ",".join(f.name for f in fields(TensileFacts))
-    rows = []
-    for name in table_5_1():
-        first, *numbers = astuple(measure_facts(tensile.load(name)))
-        rows.append(",".join([first, *(f"{number:.7g}" for number in numbers)]))
-    path.write_text(f"{header}{columns}\n" + "\n".join(rows) + "\n", encoding="utf-8")
+    return MappingProxyType({row.name: row for row in KEPT.read()})

@@ -6,8 +6,8 @@ is a `Fitting`; what all of them give for the ten materials is kept in
 ``data/materials/ludwick_fits.csv``, so that it is there without the measurements.
 """
 
-import csv
-from dataclasses import astuple, dataclass, fields
+from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cache
 from itertools import product
 from math import inf, nan
@@ -18,14 +18,14 @@ import numpy as np
 
 from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
+from softgrip.kept import Kept
 from softgrip.materials import ludwick, tensile
 from softgrip.materials.table import table_5_1
 from softgrip.materials.tensile import TensileTest, up_to_peak
-from softgrip.provenance import data_file
+from softgrip.provenance import Provenance
 
 Stress = Literal["true", "engineering"]
 Modulus = Literal["held", "free"]
-FITS = "materials/ludwick_fits.csv"
 LONGEST_STRAINS = (2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, inf)
 
 
@@ -112,48 +112,47 @@ def grid() -> tuple[Fitting, ...]:
     )
 
 
-def measure() -> dict[tuple[str, Fitting], float]:
-    """Fit every material in every way; needs the tensile tests, takes some seconds.
+@dataclass(frozen=True)
+class Fitted:
+    """The power that a way of fitting gives for a material."""
 
-    NaN stands where the best power runs to a limit: that way does not describe that material.
-    """
+    material: str
+    fitting: Fitting
+    fractional_power: float
+    """NaN where the best one runs to a limit: that way does not describe that material."""
+
+
+def measure() -> Iterator[Fitted]:
+    """Fit every material in every way; needs the tensile tests, takes some seconds."""
     tests = [tensile.load(name) for name in table_5_1()]
-    found = {}
     for fitting, test in product(grid(), tests):
         try:
-            found[test.name, fitting] = fit(test, fitting).fractional_power
+            power = fit(test, fitting).fractional_power
         except InvalidInputError:
-            found[test.name, fitting] = nan
-    return found
+            power = nan
+        yield Fitted(test.name, fitting, power)
+
+
+KEPT = Kept(
+    "materials/ludwick_fits.csv",
+    Fitted,
+    measure,
+    "Soft Robotics Materials Database (doi 10.1089/soro.2019.0115), fitted by: "
+    "python -m softgrip.materials",
+    notes="The fractional power n of Ludwick's law for ten elastomers, in every way of fitting of\n"
+    "softgrip.materials.fitting. No measurement is contained.",
+    number=".5f",
+    exact=("longest_strain",),
+    provenance=Provenance.PUBLIC,
+)
 
 
 @cache
 def kept() -> MappingProxyType[tuple[str, Fitting], float]:
     """Read what `measure` gave: n by material and way of fitting."""
-    path = data_file(FITS).path
-    with path.open(encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
     return MappingProxyType(
-        {
-            (
-                row["material"],
-                Fitting(row["stress"], row["loss"], float(row["longest_strain"]), row["modulus"]),  # type: ignore[arg-type]
-            ): float(row["fractional_power"])
-            for row in rows
-        }
+        {(row.material, row.fitting): row.fractional_power for row in KEPT.read()}
     )
-
-
-def write(found: dict[tuple[str, Fitting], float]) -> None:
-    """Keep what `measure` gave; ``python -m softgrip.materials`` calls it."""
-    path = data_file(FITS).path
-    header = "".join(line for line in path.open(encoding="utf-8") if line.startswith("#"))
-    columns = ",".join(["material", *(f.name for f in fields(Fitting)), "fractional_power"])
-    rows = (
-        f"{material},{','.join(map(str, astuple(fitting)))},{power:.5f}"
-        for (material, fitting), power in found.items()
-    )
-    path.write_text(f"{header}{columns}\n" + "\n".join(rows) + "\n", encoding="utf-8")
 
 
 def fractional_power(name: str, fitting: Fitting) -> float:

@@ -1,6 +1,5 @@
 """The ten elastomers of Table 5.1 and their printed properties."""
 
-import csv
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -10,7 +9,7 @@ import numpy as np
 
 from softgrip.arrays import Floats
 from softgrip.errors import UnknownNameError
-from softgrip.provenance import data_file
+from softgrip.provenance import data_rows
 from softgrip.units import MPa
 
 HELD_OUT = ("Dragon Skin 20", "Dragon Skin FX Pro")
@@ -51,9 +50,6 @@ def table_5_1() -> Mapping[str, Material]:
     >>> table_5_1()["Ecoflex 00-30"].young_modulus
     70000.0
     """
-    path = data_file("materials/table_5_1.csv").path
-    lines = path.read_text(encoding="utf-8").splitlines()
-    rows = csv.DictReader(line for line in lines if not line.startswith("#"))
     materials = (
         Material(
             name=row["name"],
@@ -62,7 +58,7 @@ def table_5_1() -> Mapping[str, Material]:
             mixed_viscosity=float(row["mixed_viscosity"]),
             tensile_strength=_pascal(row["tensile_strength"]),
         )
-        for row in rows
+        for row in data_rows("materials/table_5_1.csv")
     )
     return MappingProxyType({material.name: material for material in materials})
 

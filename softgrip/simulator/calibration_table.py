@@ -6,14 +6,11 @@ is printed but was not used. A quantity that the rig was calibrated to is never 
 Lines that name no other finger are those of Design 1.
 """
 
-import csv
-from collections.abc import Sequence
-from dataclasses import astuple, fields, replace
-from pathlib import Path
+from dataclasses import replace
 
 import numpy as np
 
-from softgrip.provenance import data_file, data_folder
+from softgrip.kept import Kept
 from softgrip.simulator.calibration import (
     FULL_ANGLE,
     FULL_PRESSURE,
@@ -37,7 +34,7 @@ from softgrip.simulator.laws import finger_volume, leak
 from softgrip.units import DEG, ML, MPa
 
 FILE = "calibration/simulated_rig.csv"
-COMMAND = "python -m softgrip.simulator.calibration_table"
+NOTES = "What the simulated rig is tuned to; residual = rig - printed, in `unit`."
 
 
 def entries() -> tuple[Entry, ...]:
@@ -120,43 +117,7 @@ def entries() -> tuple[Entry, ...]:
     )  # fmt: skip
 
 
-def write_entries(
-    file: str, command: str, lines: Sequence[Entry], path: Path | None = None
-) -> Path:
-    """Write a calibration file below ``data/``, or to a path, and return where it is.
-
-    Parameters
-    ----------
-    file, command
-        Its name, and what makes it.
-    lines
-        Its lines.
-    path
-        Another place for it.
-    """
-    target = data_folder() / file if path is None else path
-    target.parent.mkdir(parents=True, exist_ok=True)
-    with target.open("w", encoding="utf-8", newline="") as out:
-        out.write(f"# provenance: simulated\n# source: {command}\n")
-        out.write("# What the simulated rig is tuned to; residual = rig - printed, in `unit`.\n")
-        table = csv.writer(out, lineterminator="\n")
-        table.writerow(entry.name for entry in fields(Entry))
-        for line in lines:
-            table.writerow(f"{x:.6g}" if isinstance(x, float) else x for x in astuple(line))
-    return target
-
-
-def write(path: Path | None = None) -> Path:
-    """Write the calibration file of the rig with one finger and return its path."""
-    return write_entries(FILE, COMMAND, entries(), path)
-
-
-def read(file: str = FILE) -> tuple[Entry, ...]:
-    """Read a calibration file below ``data/``."""
-    with data_file(file).path.open(encoding="utf-8", newline="") as lines:
-        rows = list(csv.reader(line for line in lines if not line.startswith("#")))[1:]
-    return tuple(Entry(*row[:6], *map(float, row[6:])) for row in rows)  # type: ignore[arg-type]
-
+KEPT = Kept(FILE, Entry, entries, "python -m softgrip.simulator.calibration_table", NOTES)
 
 if __name__ == "__main__":
-    print(write())
+    KEPT.main()

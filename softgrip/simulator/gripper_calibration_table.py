@@ -4,13 +4,12 @@
 as `calibration_table` does for one finger; what is not named here is as there.
 """
 
-from pathlib import Path
-
 import numpy as np
 
 from softgrip.gripper.uncertainty import parameter_bounds
+from softgrip.kept import Kept
 from softgrip.simulator.calibration_entry import Entry, assumed, printed
-from softgrip.simulator.calibration_table import write_entries
+from softgrip.simulator.calibration_table import NOTES
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.gripper_calibration import step_identifies
 from softgrip.simulator.gripper_parameters import (
@@ -28,7 +27,6 @@ from softgrip.simulator.gripper_parameters import (
 from softgrip.units import DEG, ML, MM
 
 FILE = "calibration/gripper.csv"
-COMMAND = "python -m softgrip.simulator.gripper_calibration_table"
 
 
 def entries() -> tuple[Entry, ...]:
@@ -72,10 +70,7 @@ def entries() -> tuple[Entry, ...]:
     )  # fmt: skip
 
 
-def write(path: Path | None = None) -> Path:
-    """Write the calibration file and return its path."""
-    return write_entries(FILE, COMMAND, entries(), path)
-
+KEPT = Kept(FILE, Entry, entries, "python -m softgrip.simulator.gripper_calibration_table", NOTES)
 
 if __name__ == "__main__":
-    print(write())
+    KEPT.main()

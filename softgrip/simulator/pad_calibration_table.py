@@ -4,19 +4,17 @@
 `calibration_table` does for the rig with one finger. Nothing printed is calibrated to.
 """
 
-from pathlib import Path
-
 from scipy.optimize import brentq
 
+from softgrip.kept import Kept
 from softgrip.simulator.calibration_entry import Entry, assumed, printed
-from softgrip.simulator.calibration_table import write_entries
+from softgrip.simulator.calibration_table import NOTES
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.tactile.element import compliance
 from softgrip.tactile.element_resistance import CEILING, resistance
 from softgrip.units import DEG, MM
 
 FILE = "calibration/pad.csv"
-COMMAND = "python -m softgrip.simulator.pad_calibration_table"
 NOISES = 3.0
 """Change of a voltage that is taken as felt, in deviations of its noise."""
 
@@ -84,10 +82,7 @@ def entries() -> tuple[Entry, ...]:
     )  # fmt: skip
 
 
-def write(path: Path | None = None) -> Path:
-    """Write the file and return its path."""
-    return write_entries(FILE, COMMAND, entries(), path)
-
+KEPT = Kept(FILE, Entry, entries, "python -m softgrip.simulator.pad_calibration_table", NOTES)
 
 if __name__ == "__main__":
-    print(write())
+    KEPT.main()

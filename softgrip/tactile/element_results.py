@@ -3,13 +3,13 @@
 Compliances hold for E = 0.125 MPa and nu = 0.49; for another E they are divided by it.
 """
 
-import csv
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from types import MappingProxyType
 
 from softgrip.errors import UnknownNameError
-from softgrip.provenance import data_file, data_folder
+from softgrip.kept import Kept
 from softgrip.tactile.element import SHAPES, STATED_MODULUS, Element, Shape
 from softgrip.tactile.element_fem import TopCompliance, solve
 from softgrip.tactile.element_table import ASSUMED
@@ -33,7 +33,7 @@ _ROUND, _SQUARE = (4, 8, 16, 32, 64), (2, 4, 6, 8, 10)
 
 
 @dataclass(frozen=True)
-class Kept:
+class Solved:
     """A solved element: what it is, the mesh's divisions and unknowns, and how its top gives."""
 
     element: Element
@@ -63,7 +63,27 @@ TABLES: Mapping[str, Sequence[tuple[Element, int]]] = MappingProxyType(
 """The kept files: elements and divisions of their rows."""
 
 
-def read(table: str) -> list[Kept]:
+def solved(table: str) -> Iterator[Solved]:
+    """Solve the elements of a table."""
+    for element, divisions in TABLES[table]:
+        found = solve(element, divisions)
+        yield Solved(element, divisions, found.displacement.size, found.top)
+
+
+KEPT = {
+    table: Kept(
+        f"tactile/element_{table}.csv",
+        Solved,
+        partial(solved, table),
+        "python -m softgrip.tactile.element_results",
+        columns=COLUMNS,
+        exact=("width [m]", "height [m]", "cut"),
+    )
+    for table in TABLES
+}
+
+
+def read(table: str) -> tuple[Solved, ...]:
     """Read ``data/tactile/element_<table>.csv``.
 
     Parameters
@@ -78,22 +98,10 @@ def read(table: str) -> list[Kept]:
     """
     if table not in TABLES:
         raise UnknownNameError("table", table, list(TABLES))
-    path = data_file(f"tactile/element_{table}.csv").path
-    with path.open(encoding="utf-8", newline="") as stream:
-        rows = csv.reader(line for line in stream if not line.startswith("#"))
-        next(rows)
-        return [
-            Kept(
-                Element(shape, float(width), float(height), float(cut)),  # type: ignore[arg-type]
-                int(divisions),
-                int(unknowns),
-                TopCompliance(*map(float, found)),
-            )
-            for shape, width, height, cut, divisions, unknowns, *found in rows
-        ]
+    return KEPT[table].read()
 
 
-def finest(element: Element) -> Kept:
+def finest(element: Element) -> Solved:
     """Return the kept result of an element on its finest mesh.
 
     Raises
@@ -124,26 +132,6 @@ def _same(kept: Element, asked: Element) -> bool:
     )
 
 
-def write() -> Iterator[Kept]:
-    """Compute all rows and keep them; yields each one when it is done (2 minutes in all)."""
-    for table, cases in TABLES.items():
-        lines = [
-            "# provenance: simulated",
-            "# source: python -m softgrip.tactile.element_results",
-            ",".join(COLUMNS),
-        ]
-        for element, divisions in cases:
-            found = solve(element, divisions)
-            kept = Kept(element, divisions, found.displacement.size, found.top)
-            numbers = (element.width, element.height, element.cut)
-            tops = (kept.top.mean, kept.top.largest, kept.top.plate)
-            cells = (*numbers, divisions, kept.unknowns, *(f"{top:.6g}" for top in tops))
-            lines.append(",".join(map(str, (element.shape, *cells))))
-            yield kept
-        path = data_folder() / "tactile" / f"element_{table}.csv"
-        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
-
-
 if __name__ == "__main__":
-    for result in write():
-        print(result, flush=True)
+    for kept in KEPT.values():
+        kept.main()

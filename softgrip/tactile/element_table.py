@@ -5,13 +5,12 @@ that: the modulus `TABLE_MODULUS` and the three elements of `ASSUMED`. That thes
 no finding; which sizes they ask for is.
 """
 
-import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from types import MappingProxyType
 
-from softgrip.provenance import data_file
+from softgrip.provenance import cells, data_file
 from softgrip.tactile.element import Element, Shape, cut_sphere
 from softgrip.units import MM
 
@@ -62,8 +61,6 @@ def table_2_1() -> Mapping[tuple[Shape, str], PrintedRow]:
     >>> table_2_1()["pyramid", "FEM"].cells
     ('0.667', '1.335', '2.003')
     """
-    with data_file("tactile/table_2_1.csv").path.open(encoding="utf-8", newline="") as lines:
-        rows = csv.reader(line for line in lines if not line.startswith("#"))
-        next(rows)
-        found = [PrintedRow(shape, method, tuple(cells)) for shape, method, *cells in rows]  # type: ignore[arg-type]
+    rows = cells(data_file("tactile/table_2_1.csv").path)[1:]
+    found = [PrintedRow(shape, method, tuple(printed)) for shape, method, *printed in rows]  # type: ignore[arg-type]
     return MappingProxyType({(row.shape, row.method): row for row in found})

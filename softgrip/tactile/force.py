@@ -1,6 +1,5 @@
 """Contact force from the voltage of the force-measurement layer: weights, accuracy, Table 2.2."""
 
-import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -11,7 +10,7 @@ from types import MappingProxyType
 from scipy.stats import foldnorm, t
 
 from softgrip.errors import InvalidInputError
-from softgrip.provenance import data_file
+from softgrip.provenance import data_rows
 from softgrip.units import GRAM_FORCE
 
 TABLE_2_2 = "tactile/table_2_2.csv"
@@ -95,8 +94,6 @@ class Weighing:
 @cache
 def table_2_2() -> Mapping[str, Weighing]:
     """Return the rows of Table 2.2 by object, N; each is the mean of ten measurements."""
-    with data_file(TABLE_2_2).path.open(encoding="utf-8", newline="") as lines:
-        rows = [*csv.DictReader(line for line in lines if not line.startswith("#"))]
 
     def cell(row: dict[str, str], name: str) -> float:
         return float(row[f"{name} [gf]"]) * GRAM_FORCE
@@ -106,7 +103,7 @@ def table_2_2() -> Mapping[str, Weighing]:
             row["object"]: Weighing(
                 cell(row, "measured"), cell(row, "deviation"), cell(row, "true")
             )
-            for row in rows
+            for row in data_rows(TABLE_2_2)
         }
     )
 

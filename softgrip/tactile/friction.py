@@ -4,7 +4,6 @@ Section 2.4 prints no coefficient, but forces that Eq. (2.8) and (2.9) join by o
 so that a pair leaves an interval of coefficients; a single rubber must lie in all of them.
 """
 
-import csv
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
@@ -13,7 +12,7 @@ from types import MappingProxyType
 from typing import Self
 
 from softgrip.errors import InvalidInputError
-from softgrip.provenance import data_file
+from softgrip.provenance import data_rows
 
 PRINTED_GRASPS = "tactile/grasp_printed.csv"
 
@@ -129,14 +128,12 @@ class PrintedGrasp:
 @cache
 def printed_grasps() -> Mapping[str, PrintedGrasp]:
     """Return the three grasps of Section 2.4 by object, in the order of the text."""
-    with data_file(PRINTED_GRASPS).path.open(encoding="utf-8", newline="") as lines:
-        rows = [*csv.DictReader(line for line in lines if not line.startswith("#"))]
     return MappingProxyType(
         {
             row["object"]: PrintedGrasp(
                 row["contact force [N]"], row["lift force [N]"], row["weight [N]"]
             )
-            for row in rows
+            for row in data_rows(PRINTED_GRASPS)
         }
     )
 

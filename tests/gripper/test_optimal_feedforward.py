@@ -17,6 +17,7 @@ from softgrip.gripper.optimal_feedforward import optimal_feedforward, trade_off
 from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, finger_state_space, state_space
 from softgrip.gripper.reach import project
 from softgrip.gripper.trial import Trial
+from softgrip.provenance import data_file
 
 TARGET = tuple(project(PRINTED, [np.pi / 4] * 2).reached.tolist())
 
@@ -163,7 +164,7 @@ def test_residual_of_two_fingers_by_hand():
 
 
 def test_kept_points_are_what_the_module_makes():
-    kept = {(p.fingers, p.spread): p for p in finger_count.read()}
+    kept = {(p.fingers, p.spread): p for p in finger_count.KEPT.read()}
     assert set(kept) == {(n, s) for n in finger_count.COUNTS for s in finger_count.SPREADS}
     for key in ((2, 0.2), (3, 0.1)):
         found = count_point(*key)
@@ -173,7 +174,7 @@ def test_kept_points_are_what_the_module_makes():
 
 def test_only_the_extreme_fingers_count_on_the_way():
     """Five fingers within 2.5 % reach as far out as two within 5 %: the same least difference."""
-    kept = {(p.fingers, p.spread): p.worst_sync for p in finger_count.read()}
+    kept = {(p.fingers, p.spread): p.worst_sync for p in finger_count.KEPT.read()}
     assert kept[5, 0.025] == pytest.approx(kept[2, 0.05], rel=1e-3)
     assert kept[5, 0.05] == pytest.approx(kept[2, 0.1], rel=1e-3)
     for spread in finger_count.SPREADS[1:]:
@@ -183,8 +184,8 @@ def test_only_the_extreme_fingers_count_on_the_way():
 def test_written_file_is_the_kept_one(tmp_path, monkeypatch):
     monkeypatch.setattr(finger_count, "COUNTS", (2,))
     monkeypatch.setattr(finger_count, "SPREADS", (0.0, 0.2))
-    lines = finger_count.write(tmp_path / "deep" / "file.csv").read_text().splitlines()
-    kept = finger_count.data_file(finger_count.FILE).path.read_text().splitlines()
+    lines = finger_count.KEPT.write(tmp_path / "deep" / "file.csv").read_text().splitlines()
+    kept = data_file(finger_count.KEPT.file).path.read_text().splitlines()
     assert lines[:5] == kept[:5]
     assert len(lines) == 6
 

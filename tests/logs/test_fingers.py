@@ -34,7 +34,6 @@ from softgrip.logs.fingers import (
 from softgrip.logs.reader import read_log
 from softgrip.provenance import data_file, data_folder
 from softgrip.simulator import gripper_calibration_table
-from softgrip.simulator.calibration_table import read
 from softgrip.simulator.gripper_calibration import step_identifies
 from softgrip.simulator.gripper_loop import CommandSequence, Held
 from softgrip.simulator.gripper_parameters import (
@@ -130,9 +129,9 @@ def test_largest_of_seven_is_that_of_chance():
 
 
 def test_calibration_file_is_what_the_code_gives(tmp_path):
-    made = gripper_calibration_table.write(tmp_path / "gripper.csv")
+    made = gripper_calibration_table.KEPT.write(tmp_path / "gripper.csv")
     assert made.read_text() == data_file(gripper_calibration_table.FILE).path.read_text()
-    for entry in read(gripper_calibration_table.FILE):
+    for entry in gripper_calibration_table.KEPT.read():
         if entry.use == "calibrated":
             assert abs(entry.residual) < 0.01 * float(entry.printed)
 
@@ -146,7 +145,7 @@ def test_noise_of_the_sensor_makes_most_of_the_deviations_of_seven_runs():
 
 
 def test_speed_file_is_made_again_and_shows_no_effect_of_speed():
-    kept = gripper_speed.read()
+    kept = gripper_speed.kept_errors()
     again = gripper_speed.errors_at(kept[0].speed)
     # The file holds three decimals.
     np.testing.assert_allclose(again.true, kept[0].true, atol=6e-4)

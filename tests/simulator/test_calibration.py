@@ -13,7 +13,7 @@ ENTRIES = calibration_table.entries()
 
 
 def test_file_is_what_the_code_gives():
-    kept = calibration_table.read()
+    kept = calibration_table.KEPT.read()
     assert len(kept) == len(ENTRIES)
     for old, new in zip(kept, ENTRIES, strict=True):
         assert (old.quantity, old.printed, old.parameter) == (
@@ -28,11 +28,11 @@ def test_file_is_what_the_code_gives():
 
 def test_file_says_that_it_is_simulated():
     file = data_file(calibration_table.FILE)
-    assert (file.provenance, file.source) == (Provenance.SIMULATED, calibration_table.COMMAND)
+    assert (file.provenance, file.source) == (Provenance.SIMULATED, calibration_table.KEPT.source)
 
 
 def test_written_file_is_the_kept_one(tmp_path):
-    made = calibration_table.write(tmp_path / "rig.csv")
+    made = calibration_table.KEPT.write(tmp_path / "rig.csv")
     assert made.read_text() == data_file(calibration_table.FILE).path.read_text()
 
 

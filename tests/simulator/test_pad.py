@@ -7,7 +7,6 @@ import pytest
 
 from softgrip.errors import InvalidInputError
 from softgrip.simulator import pad_calibration_table
-from softgrip.simulator.calibration_table import read
 from softgrip.simulator.pad import convert, make_pad, to_volts, voltages
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.tactile.element import compliance
@@ -65,7 +64,7 @@ def test_printed_range_of_an_element_and_least_force_are_met():
 
 
 def test_kept_assumptions_are_those_of_the_code():
-    kept, made = read(pad_calibration_table.FILE), pad_calibration_table.entries()
+    kept, made = pad_calibration_table.KEPT.read(), pad_calibration_table.entries()
     assert len(kept) == len(made)
     for old, new in zip(kept, made, strict=True):
         assert (old.use, old.quantity, old.unit) == (new.use, new.quantity, new.unit)
@@ -73,7 +72,7 @@ def test_kept_assumptions_are_those_of_the_code():
 
 
 def test_every_number_that_the_code_assumes_is_in_the_file():
-    listed = {line.parameter for line in read(pad_calibration_table.FILE)}
+    listed = {line.parameter for line in pad_calibration_table.KEPT.read()}
     printed = {"element", "young_modulus", "supply", "levels"}
     assert {*PadParameters.__dataclass_fields__} - printed == listed - {"element.cut", ""}
 

@@ -35,14 +35,15 @@ def middle(times):
 
 
 def test_command_gives_the_kept_gains_again(tmp_path):
-    again, kept = lqr_gains.read(lqr_gains.write(tmp_path / "gains.csv")), lqr_gains.read()
+    table = lqr_gains.KEPT
+    again, kept = table.read(table.write(tmp_path / "gains.csv")), table.read()
     for one, other in zip(again, kept, strict=True):
         assert one.design == other.design
         # The identification may end a little elsewhere under another library.
         for name in ("input_gain", "k1", "k2", "k3"):
             assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-3)
-    file = data_file(lqr_gains.FILE)
-    assert (file.provenance, file.source) == (Provenance.SIMULATED, lqr_gains.COMMAND)
+    file = data_file(table.file)
+    assert (file.provenance, file.source) == (Provenance.SIMULATED, table.source)
 
 
 def test_unknown_design_is_refused():

@@ -92,7 +92,8 @@ def test_logs_of_different_times_are_not_averaged():
 
 
 def test_command_gives_the_kept_gains_again(tmp_path):
-    again, before = pid_gains.read(pid_gains.write(tmp_path / "gains.csv")), pid_gains.read()
+    kept = pid_gains.KEPT
+    again, before = kept.read(kept.write(tmp_path / "gains.csv")), kept.read()
     assert [(r.design, r.stage) for r in again] == [(r.design, r.stage) for r in before]
     for one, other in zip(again, before, strict=True):
         # The simplex may take another turn under another numpy; near its minimum that is 5 %. The
@@ -101,7 +102,7 @@ def test_command_gives_the_kept_gains_again(tmp_path):
             assert getattr(one, name) == pytest.approx(getattr(other, name), rel=0.05)
         assert one.ki == pytest.approx(other.ki, abs=0.05 * other.kp)
     file = data_file(pid_gains.FILE)
-    assert (file.provenance, file.source) == (Provenance.SIMULATED, pid_gains.COMMAND)
+    assert (file.provenance, file.source) == (Provenance.SIMULATED, kept.source)
 
 
 def test_unknown_controllers_are_refused():

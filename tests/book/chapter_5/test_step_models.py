@@ -23,8 +23,8 @@ from softgrip.provenance import data_file
 from softgrip.simulator.steps import simulate_step_test, travel_to
 from softgrip.units import DEG
 
-KEPT = step_test_protocols.read()
-SWEEP = {(point.design, point.angle): point for point in step_sweep.read()}
+KEPT = step_test_protocols.kept_errors()
+SWEEP = {(point.design, point.angle): point for point in step_sweep.KEPT.read()}
 
 
 @pytest.mark.parametrize("design", FINGERS)
@@ -56,7 +56,7 @@ def test_errors_without_a_model_error_are_the_noise_of_the_mean(design):
 
 def test_kept_protocols_are_what_the_code_gives():
     for name in ("identified at 60 deg", "each test by itself", "driven by a step of force"):
-        again = step_test_protocols.errors(step_test_protocols.PROTOCOLS[name])
+        again = [row.error for row in step_test_protocols.errors([name])]
         # The file holds four digits.
         assert [*KEPT[name].values()] == pytest.approx(again, rel=1e-3), name
     assert list(KEPT) == list(step_test_protocols.PROTOCOLS)
@@ -98,8 +98,8 @@ def test_one_model_for_more_steps_fares_no_better():
 
 def test_sweep_and_protocols_say_that_they_are_simulated():
     for module in (step_sweep, step_test_protocols):
-        file = data_file(module.FILE)
-        assert (str(file.provenance), file.source) == ("simulated", module.COMMAND)
+        file = data_file(module.KEPT.file)
+        assert (str(file.provenance), file.source) == ("simulated", f"python -m {module.__name__}")
 
 
 def test_other_logs_are_fitted_to_their_first_half():
