@@ -5,7 +5,7 @@ import pandas as pd
 from book.chapter_3.figures import TABLE_3_1, TABLE_3_2
 from book.chapter_3.numbers import estimated_frequency, rubber_weight, stepped
 from book.companion.exhibit import table
-from book.companion.verdict import Entry, ledger
+from book.companion.verdict import verdict_of
 from softgrip.actuator import fem_results
 from softgrip.actuator.certificate import certified_design
 from softgrip.actuator.design import Bounds, DesignProblem, objective
@@ -22,10 +22,6 @@ from softgrip.actuator.printed import table_3_4 as printed_table_3_4
 from softgrip.actuator.section import Section
 from softgrip.provenance import Provenance
 from softgrip.units import MM
-
-
-def _entries() -> dict[str, Entry]:
-    return {entry.claim.id: entry for entry in ledger(3)}
 
 
 def _mm(section: Section) -> dict[str, str]:
@@ -76,7 +72,7 @@ def table_3_1_sums() -> pd.DataFrame:
 )
 def table_3_2_recomputed() -> pd.DataFrame:
     """Tabulate the bands, their best sections and the frequencies of steps."""
-    found, rows = _entries(), []
+    rows = []
     first = stepped(1).natural_frequency.value
     for k, row in enumerate(table_3_2(), start=1):
         best = certified_design(row.problem()).design.section
@@ -88,7 +84,7 @@ def table_3_2_recomputed() -> pd.DataFrame:
                 "band": f"{row.low:.2f} to {row.high:.2f}",
                 "a printed": f"{row.section.top / MM:.1f}",
                 "a": f"{best.top / MM:.1f}",
-                "verdict of a": found[f"table-3.2-top-{k}"].verdict,
+                "verdict of a": verdict_of(3, "table-3.2-top-{key}", k),
                 "measured": f"{row.measured:.2f} ({row.measured / table_3_2()[0].measured:.2f})",
                 "simulated": f"{value:.2f} ± {margin:.2f} ({value / first:.2f})",
                 "poles": f"{-pole.real:.2f} ± {abs(pole.imag):.2f}j",
@@ -107,11 +103,6 @@ def table_3_2_recomputed() -> pd.DataFrame:
 )
 def table_3_3_recomputed() -> pd.DataFrame:
     """Tabulate the frequencies of Table 3.3."""
-    verdicts = {
-        e.claim.arguments["design"]: e.verdict
-        for e in ledger(3)
-        if e.claim.function == "estimated_frequency"
-    }
     return pd.DataFrame(
         {
             "design": name,
@@ -119,7 +110,7 @@ def table_3_3_recomputed() -> pd.DataFrame:
             "printed": f"{row.estimated:.2f}",
             "as stated": f"{estimated_frequency(name):.2f}",
             "reread": f"{estimated_frequency(name, FREQUENCY_POWER, as_printed=False):.2f}",
-            "verdict": verdicts[name],
+            "verdict": verdict_of(3, "table-3.3-estimated-{key}", name),
             "weight": f"{row.weight:.2f}",
             "rubber": f"{rubber_weight(name):.2f}",
         }

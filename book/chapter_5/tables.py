@@ -7,7 +7,7 @@ import pandas as pd
 
 from book.chapter_5.figures import FACTS, FITS, TABLE, TESTS
 from book.companion.exhibit import table
-from book.companion.verdict import Entry, ledger
+from book.companion.verdict import ledger, verdict_of
 from softgrip.materials import tensile
 from softgrip.materials.facts import facts
 from softgrip.materials.fitting import (
@@ -51,7 +51,7 @@ def table_5_1_beside_tests() -> pd.DataFrame:
                 "n printed": f"{material.fractional_power:.3f}",
                 "n fitted": f"{fractional_power(material.name, BEST):.3f}",
                 "95 %": interval,
-                "verdict": _verdicts()["fractional power n of " + material.name].verdict,
+                "verdict": verdict_of(5, "table-5.1-n-{key}", material.name),
                 "E": f"{material.young_modulus / MPa:.2f}",
                 "at 100 %": f"{known.hundred_percent_modulus / MPa:.3f}",
                 "viscosity": f"{material.mixed_viscosity:g}",
@@ -60,10 +60,6 @@ def table_5_1_beside_tests() -> pd.DataFrame:
             }
         )
     return pd.DataFrame(rows)
-
-
-def _verdicts() -> dict[str, Entry]:
-    return {entry.claim.what: entry for entry in ledger(5)}
 
 
 @table(
@@ -82,8 +78,7 @@ def table_5_2() -> pd.DataFrame:
             "recomputed": f"{entry.recomputed:.4g}",
             "verdict": entry.verdict,
         }
-        for entry in ledger(5)
-        if entry.claim.where in ("Table 5.2", "Section 5.5")
+        for entry in ledger(5, ["Table 5.2", "Section 5.5"])
     )
 
 

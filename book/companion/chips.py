@@ -91,7 +91,7 @@ class Html:
 
 def show_verdicts(chapter: int | None = None, *, where: tuple[str, ...] = ()) -> Html:
     """Show the ledger of a chapter (or all), or of the places that are named."""
-    entries = [e for e in ledger(chapter) if not where or e.claim.where in where]
+    entries = ledger(chapter, where)
     count = Counter(entry.verdict for entry in entries)
     chips = " ".join(chip(v, f"{count[v]} {v}") for v in Verdict if count[v])
     return Html(f'<p class="counts">{chips}</p>{verdict_table(entries)}')

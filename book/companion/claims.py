@@ -9,7 +9,7 @@ import tomllib
 from dataclasses import dataclass, field, fields
 from typing import Any, Literal, get_args
 
-from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.errors import DataFileError, InvalidInputError, UnknownNameError
 from softgrip.provenance import data_file, data_folder
 
 Basis = Literal["inputs", "measurement", "citation"]
@@ -63,8 +63,9 @@ def _fill(value: Any, key: str) -> Any:
     return value
 
 
-def _slug(key: str) -> str:
-    return "".join(c if c.isalnum() else "-" for c in key.lower())
+def _id(pattern: str, key: object) -> str:
+    slug = "".join(c if c.isalnum() else "-" for c in str(key).lower())
+    return pattern.replace("{key}", slug)
 
 
 def _expand(row: dict[str, Any]) -> list[dict[str, Any]]:
@@ -75,7 +76,7 @@ def _expand(row: dict[str, Any]) -> list[dict[str, Any]]:
     return [
         {
             **{name: _fill(value, key) for name, value in row.items()},
-            "id": row["id"].replace("{key}", _slug(key)),
+            "id": _id(row["id"], key),
             "printed": string,
             "note": notes.get(key, row.get("note", "")),
         }
@@ -123,3 +124,17 @@ def read_claims(chapter: int | None = None) -> list[Claim]:
                 raise DataFileError(path, expected="ids that differ", got=f"{claim.id} twice")
             found[claim.id] = claim
     return list(found.values())
+
+
+def claim_of(chapter: int, pattern: str, key: object = "") -> Claim:
+    """Return a claim by its id, such as ``table-3.2-top-{key}``, and its key if it is a cell's.
+
+    Raises
+    ------
+    UnknownNameError
+        If the chapter has no such claim; the message lists those it has.
+    """
+    known = {claim.id: claim for claim in read_claims(chapter)}
+    if (name := _id(pattern, key)) not in known:
+        raise UnknownNameError(f"claim of Chapter {chapter}", name, list(known))
+    return known[name]

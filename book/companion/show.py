@@ -11,7 +11,7 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ import pandas as pd
 from book.companion.chips import chip
 from book.companion.exhibit import Exhibit, exhibit, with_logs
 from book.companion.save import make, save, svg
-from book.companion.verdict import Entry, Verdict, ledger
+from book.companion.verdict import Verdict, ledger
 
 FOLDER = Path("_build/figures")
 """Where the book's build, which runs pages in the folder of the book, puts their pictures."""
@@ -46,12 +46,6 @@ def _cell(value: object) -> str:
     return chip(value, value) if isinstance(value, Verdict) else str(value)
 
 
-@cache
-def _ledger_of_build(chapter: int) -> list[Entry]:
-    """Judge a chapter once for all exhibits of a page; in a notebook an equation may change."""
-    return ledger(chapter)
-
-
 @dataclass(frozen=True)
 class Shown:
     """An exhibit made, with all that stands beside it."""
@@ -66,9 +60,8 @@ class Shown:
         item = self.exhibit
         if not item.in_dissertation:
             return ""
-        chapter = int(item.number.split(".")[0])
-        entries = _ledger_of_build(chapter) if _in_static_book() else ledger(chapter)
-        count = Counter(e.verdict for e in entries if e.claim.where == item.title)
+        entries = ledger(int(item.number.split(".")[0]), [item.title])
+        count = Counter(entry.verdict for entry in entries)
         return " ".join(chip(verdict, f"{count[verdict]} {verdict}") for verdict in count)
 
     def _facts(self) -> list[str]:

@@ -1,12 +1,12 @@
 """Verdicts: what comes of a claim when it is recomputed, by rule and never by hand."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from enum import StrEnum
 from importlib import import_module
 from typing import Any, TypeVar
 
-from book.companion.claims import Claim, read_claims
+from book.companion.claims import Claim, claim_of, read_claims
 from softgrip.errors import DataFileError
 
 CLOSE = 0.05
@@ -168,6 +168,12 @@ def judge(claim: Claim) -> Entry:
     )
 
 
-def ledger(chapter: int | None = None) -> list[Entry]:
-    """Judge the claims of a chapter, or of all."""
-    return [judge(claim) for claim in read_claims(chapter)]
+def ledger(chapter: int | None = None, where: Collection[str] = ()) -> list[Entry]:
+    """Judge the claims of a chapter, or of all; with ``where`` those of places, by name, alone."""
+    claims = read_claims(chapter)
+    return [judge(claim) for claim in claims if not where or claim.where in where]
+
+
+def verdict_of(chapter: int, claim: str, key: object = "") -> Verdict:
+    """Judge one claim, by id and key as for `claim_of`."""
+    return judge(claim_of(chapter, claim, key)).verdict
