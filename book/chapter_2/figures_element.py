@@ -13,9 +13,8 @@ from softgrip.provenance import Provenance
 from softgrip.tactile import element_results
 from softgrip.tactile.element import SHAPES, TABLE_MODULUS, Element, compliance
 from softgrip.tactile.element_fem import middle_section, solve
-from softgrip.tactile.element_resistance import AT_REST, CEILING
 from softgrip.tactile.element_results import STATED_CYLINDER, finest
-from softgrip.tactile.element_sensitivity import least_force, resistance_under
+from softgrip.tactile.element_sensitivity import AT_REST, CEILING, least_force, resistance_under
 from softgrip.tactile.element_table import ASSUMED
 from softgrip.units import MM
 

@@ -21,8 +21,8 @@ from book.companion.exhibit import figure
 from book.companion.style import BLUE, GREEN, GREY, MEASURED, ORANGE, SKY, VERMILION, WIDTH
 from softgrip.arrays import Floats
 from softgrip.provenance import Provenance
-from softgrip.tactile.bandwidth import left_out_error, tried_bandwidths
 from softgrip.tactile.force_comparison import regressors
+from softgrip.tactile.nadaraya_watson import left_out_error, tried_bandwidths
 from softgrip.units import GRAM_FORCE
 
 POINTS, CYCLES = file_of("weights"), file_of("cycles")

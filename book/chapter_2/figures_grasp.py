@@ -18,8 +18,7 @@ from book.companion.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, WI
 from softgrip.provenance import Provenance
 from softgrip.simulator.pad_gripper import GraspGripper
 from softgrip.tactile.force_control import largest_loop_gain
-from softgrip.tactile.friction import PRINTED_GRASPS, common_friction, printed_grasps
-from softgrip.tactile.lift import contact_force
+from softgrip.tactile.friction import PRINTED_GRASPS, common_friction, contact_force, printed_grasps
 
 DATA = (PRINTED_GRASPS, file_of("weights"))
 

@@ -13,7 +13,7 @@ from book.chapter_2.kinds import OBJECTS, TRAINING, contacts, kept, kept_neighbo
 from book.companion.exhibit import figure
 from book.companion.style import BLUE, GREY, ORANGE, PRINTED, VERMILION, WIDTH
 from softgrip.provenance import Provenance
-from softgrip.tactile.accuracy_interval import Accuracy
+from softgrip.tactile.accuracy import Accuracy
 from softgrip.tactile.contact_kind import NEIGHBOURS, bagged_neighbours, nearest_neighbours
 from softgrip.tactile.contacts import KINDS
 from softgrip.tactile.kind_evaluation import SplitScore

@@ -19,8 +19,7 @@ from softgrip.simulator.pad import make_pad, press
 from softgrip.simulator.pad_objects import pad_object
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_surface import Pose
-from softgrip.tactile.contact_line import line_angle
-from softgrip.tactile.contact_place import place
+from softgrip.tactile.contact_pose import line_angle, place
 from softgrip.tactile.contacts import KINDS, Contacts
 from softgrip.tactile.pad_layout import THREE_TWO_THREE
 from softgrip.units import DEG, MM

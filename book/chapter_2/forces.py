@@ -16,10 +16,9 @@ from book.chapter_2.force_logs import read
 from softgrip.arrays import Floats, read_only
 from softgrip.kept import write_data
 from softgrip.provenance import data_file, data_folder
-from softgrip.tactile.bandwidth import best_bandwidth
 from softgrip.tactile.force import Weighing
 from softgrip.tactile.force_comparison import cross_validated, regressors, root_mean_square
-from softgrip.tactile.nadaraya_watson import NadarayaWatson
+from softgrip.tactile.nadaraya_watson import NadarayaWatson, best_bandwidth
 
 COMPARISON = "tactile/force_comparison.csv"
 SEEDS = 20

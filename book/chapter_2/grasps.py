@@ -25,8 +25,7 @@ from softgrip.simulator.pad_objects import pad_object
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_surface import Pose
 from softgrip.tactile.force_control import largest_loop_gain, tuned_gains
-from softgrip.tactile.friction import printed_grasps
-from softgrip.tactile.lift import lift_force
+from softgrip.tactile.friction import lift_force, printed_grasps
 from softgrip.units import MM
 
 OBJECTS = {

@@ -15,7 +15,7 @@ import pandas as pd
 from softgrip.kept import write_data
 from softgrip.logs.contacts import read_contacts
 from softgrip.provenance import data_file, data_folder
-from softgrip.tactile.accuracy_interval import Accuracy
+from softgrip.tactile.accuracy import Accuracy
 from softgrip.tactile.contact_kind import bagged_neighbours, classifiers, nearest_neighbours
 from softgrip.tactile.contacts import Contacts
 from softgrip.tactile.kind_evaluation import (

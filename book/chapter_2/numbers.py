@@ -15,15 +15,13 @@ from softgrip.simulator import pad_calibration_table
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.tactile.contact_kind import bagged_neighbours, nearest_neighbours
 from softgrip.tactile.element import STATED_MODULUS, Element, Shape, cut_sphere, shortening
-from softgrip.tactile.element_resistance import AT_REST
 from softgrip.tactile.element_results import fem_deformation
-from softgrip.tactile.element_sensitivity import least_force, resistance_under
+from softgrip.tactile.element_sensitivity import AT_REST, least_force, resistance_under
 from softgrip.tactile.element_table import ASSUMED
 from softgrip.tactile.force import SET, WEIGHTS, table_2_2
-from softgrip.tactile.friction import printed_grasps
+from softgrip.tactile.friction import contact_force, lift_force, printed_grasps
 from softgrip.tactile.hertz import hertz_approach
 from softgrip.tactile.kind_evaluation import accuracy
-from softgrip.tactile.lift import contact_force, lift_force
 from softgrip.tactile.pad_layout import THREE_TWO_THREE
 from softgrip.units import GRAM_FORCE, MM, MPa
 

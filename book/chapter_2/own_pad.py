@@ -8,8 +8,7 @@ from book.companion.style import style
 from softgrip.tactile.contact_kind import nearest_neighbours
 from softgrip.tactile.kind_evaluation import split_score, train_and_test
 from softgrip.tactile.own_pad import PadReadings
-from softgrip.tactile.pad_model import PadModel
-from softgrip.tactile.pad_model_settings import KindSettings
+from softgrip.tactile.pad_model import KindSettings, PadModel
 
 
 def show_neighbours(readings: PadReadings, *, splits: int = 3) -> SVG:

@@ -10,8 +10,7 @@ from softgrip.simulator.pad import Pad, make_pad, press, voltages
 from softgrip.simulator.pad_objects import pad_object
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_surface import Pose
-from softgrip.tactile.contact_line import angle_between, line_angle
-from softgrip.tactile.contact_place import moments, place
+from softgrip.tactile.contact_pose import angle_between, line_angle, moments, place
 from softgrip.tactile.contacts import Contacts
 from softgrip.tactile.pad_layout import PadLayout
 

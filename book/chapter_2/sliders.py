@@ -11,7 +11,7 @@ from softgrip.arrays import Floats
 from softgrip.logs.contacts import read_contacts
 from softgrip.provenance import data_file
 from softgrip.tactile.contact_kind import bagged_neighbours
-from softgrip.tactile.pad_model_fast import FastKind
+from softgrip.tactile.fast_kind import FastKind
 
 __all__ = ["draw_bandwidth", "draw_element", "draw_touch"]
 

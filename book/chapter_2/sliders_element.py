@@ -7,8 +7,7 @@ from matplotlib.figure import Figure
 from book.companion.style import BLUE, GREY, WIDTH, style
 from softgrip.arrays import Floats
 from softgrip.tactile.element import STATED_MODULUS, Element, Shape, cross_section, shortening
-from softgrip.tactile.element_resistance import AT_REST
-from softgrip.tactile.element_sensitivity import resistance_under
+from softgrip.tactile.element_sensitivity import AT_REST, resistance_under
 from softgrip.units import MM
 
 POISSON = 0.49

@@ -6,8 +6,7 @@ from matplotlib.figure import Figure
 from book.chapter_2.figures_force import draw_points
 from book.chapter_2.forces import weight_points
 from book.companion.style import BLUE, still, style
-from softgrip.tactile.bandwidth import left_out_error
-from softgrip.tactile.nadaraya_watson import NadarayaWatson
+from softgrip.tactile.nadaraya_watson import NadarayaWatson, left_out_error
 from softgrip.units import GRAM_FORCE
 
 

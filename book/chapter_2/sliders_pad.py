@@ -15,8 +15,7 @@ from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
 from softgrip.simulator.pad_objects import PadObject, pad_object
 from softgrip.simulator.pad_surface import Pose
-from softgrip.tactile.contact_line import line_angle
-from softgrip.tactile.contact_place import FELT, place
+from softgrip.tactile.contact_pose import FELT, line_angle, place
 from softgrip.tactile.pad_layout import ELEMENT_SIDE, PAD_SIZE, THREE_TWO_THREE
 from softgrip.units import DEG, MM
 

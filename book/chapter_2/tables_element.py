@@ -8,10 +8,11 @@ import pandas as pd
 from book.companion.exhibit import table
 from softgrip.provenance import Provenance
 from softgrip.tactile.element import STATED_MODULUS, TABLE_MODULUS, Element, shortening
-from softgrip.tactile.element_cut import cut_for, largest_for
 from softgrip.tactile.element_results import (
     STATED_CYLINDER,
+    cut_for,
     fem_deformation,
+    largest_for,
     read,
 )
 from softgrip.tactile.element_sensitivity import equal_cut, relative_compliance

@@ -17,8 +17,14 @@ from book.chapter_2.grasps import (
 from book.companion.exhibit import table
 from softgrip.provenance import Provenance
 from softgrip.tactile.force import TABLE_2_2, table_2_2
-from softgrip.tactile.friction import Interval, common_friction, printed_grasps
-from softgrip.tactile.lift import contact_force, holding_probability, lift_force
+from softgrip.tactile.friction import (
+    Interval,
+    common_friction,
+    contact_force,
+    holding_probability,
+    lift_force,
+    printed_grasps,
+)
 
 WEIGHED = {"egg": "egg", "tofu": "tofu", "carrot": "sliced carrot"}
 """The row of Table 2.2 for each object; the text calls the carrot sliced, then small."""

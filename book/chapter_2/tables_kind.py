@@ -11,10 +11,9 @@ from book.chapter_2.kinds import (
 )
 from book.companion.exhibit import table
 from softgrip.provenance import Provenance
-from softgrip.tactile.accuracy_interval import Accuracy, counts_behind
+from softgrip.tactile.accuracy import Accuracy, counts_behind, mcnemar, overlaps
 from softgrip.tactile.contact_kind import bagged_neighbours, nearest_neighbours
 from softgrip.tactile.kind_evaluation import accuracy
-from softgrip.tactile.mcnemar import mcnemar, overlaps
 
 PRINTED = (
     ("cross-validation", 504, "96.43", "94.84"),

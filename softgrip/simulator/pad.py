@@ -12,7 +12,7 @@ from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_surface import Pose, gap
 from softgrip.simulator.sensors import Counts
 from softgrip.tactile.element import compliance
-from softgrip.tactile.element_resistance import AT_REST, resistance
+from softgrip.tactile.element_sensitivity import AT_REST, resistance
 
 
 @dataclass(frozen=True, eq=False)

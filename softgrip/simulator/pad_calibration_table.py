@@ -11,7 +11,7 @@ from softgrip.simulator.calibration_entry import Entry, assumed, printed
 from softgrip.simulator.calibration_table import NOTES
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.tactile.element import compliance
-from softgrip.tactile.element_resistance import CEILING, resistance
+from softgrip.tactile.element_sensitivity import CEILING, resistance
 from softgrip.units import DEG, MM
 
 FILE = "calibration/pad.csv"

@@ -49,7 +49,7 @@ def one_hot(kinds: ArrayLike) -> Floats:
 
 
 def from_one_hot(codes: ArrayLike) -> NDArray[np.str_]:
-    """Return the kinds that Eq. (2.4) codes, shape (N,); the inverse of `one_hot`.
+    """Return the kinds of codes, shape (N,); the inverse of `one_hot`.
 
     Raises
     ------

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
-from itertools import combinations
 from math import sqrt
 from types import MappingProxyType
 
@@ -106,27 +105,3 @@ def table_2_2() -> Mapping[str, Weighing]:
             for row in data_rows(TABLE_2_2)
         }
     )
-
-
-def pieces_for(
-    weight: float, pieces: tuple[float, ...] = SET, most: int = 3
-) -> tuple[float, ...] | None:
-    """Return the fewest pieces, at most `most`, that make a weight; None if none do.
-
-    Parameters
-    ----------
-    weight, pieces
-        Same unit; a piece that is there twice is given twice.
-    most
-        Largest number of pieces; Section 2.3 says two or three.
-
-    Examples
-    --------
-    >>> pieces_for(35), pieces_for(40), pieces_for(40, (*SET, 2, 20))
-    ((5, 10, 20), None, (20, 20))
-    """
-    for count in range(1, most + 1):
-        for chosen in combinations(pieces, count):
-            if abs(sum(chosen) - weight) < 1e-9:
-                return chosen
-    return None

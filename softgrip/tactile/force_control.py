@@ -77,41 +77,6 @@ def largest_loop_gain(lag: float, period: float = PERIOD) -> float:
     return 1 / (1 - exp(-period / lag))
 
 
-def resting_force(
-    reference: Floats | float, stiffness: float, kp: float, gap: float = 0.0
-) -> Floats:
-    """Return the force at which the command as a position rests, N.
-
-    The position is kp times the error, the force k times what of it goes beyond the gap.
-
-    Parameters
-    ----------
-    reference
-        N, any shape.
-    stiffness
-        k, N/m, > 0.
-    kp
-        m/N, > 0.
-    gap
-        Between open finger and object, m, >= 0; zero favours the controller most.
-
-    Raises
-    ------
-    InvalidInputError
-        If an argument is outside its range.
-
-    Examples
-    --------
-    >>> resting_force(0.3, stiffness=200.0, kp=0.005).item()  # kp k = 1: half of it
-    0.15
-    """
-    check_positive(stiffness=stiffness, kp=kp)
-    if not gap >= 0:
-        raise InvalidInputError("gap", expected="m, >= 0", got=gap)
-    found = stiffness * (kp * np.asarray(reference) - gap) / (1 + kp * stiffness)
-    return np.asarray(np.maximum(found, 0.0))
-
-
 @final
 class ForceController:
     """A PD controller on the force error whose output closes a gripper.

@@ -1,6 +1,6 @@
-"""Which friction coefficients agree with printed pairs of contact force and lift force.
+"""What a grip can lift by friction, Eq. (2.8) and (2.9), how surely, and with which coefficient.
 
-Section 2.4 prints no coefficient, but forces that Eq. (2.8) and (2.9) join by one. Each is rounded,
+Section 2.4 prints no coefficient, but forces that the two equations join by one. Each is rounded,
 so that a pair leaves an interval of coefficients; a single rubber must lie in all of them.
 """
 
@@ -11,8 +11,76 @@ from functools import cache
 from types import MappingProxyType
 from typing import Self
 
+from scipy.stats import norm
+
+from softgrip.arrays import Value, check_positive
 from softgrip.errors import InvalidInputError
 from softgrip.provenance import data_rows
+
+
+def contact_force(lift_force: Value, friction: float) -> Value:
+    """Return the force with which each of two fingers must press, N: Eq. (2.8).
+
+    Parameters
+    ----------
+    lift_force
+        What the fingers are to bear by friction, N, any shape; it should exceed the weight.
+    friction
+        Coefficient of Coulomb's law between finger and object, > 0, the same for both fingers.
+
+    Raises
+    ------
+    InvalidInputError
+        If the coefficient is not above zero.
+
+    Examples
+    --------
+    >>> contact_force(0.6, friction=1.0)
+    0.3
+    """
+    check_positive(friction=friction)
+    return lift_force / (2 * friction)
+
+
+def lift_force(contact_force: Value, friction: float) -> Value:
+    """Return what two fingers can bear by friction, N: Eq. (2.9); arguments as `contact_force`."""
+    check_positive(friction=friction)
+    return 2 * friction * contact_force
+
+
+def holding_probability(lift_force: float, weight: float, friction: float, error: float) -> float:
+    """Return how probable it is that a grip holds whose force is known by a sensor only.
+
+    The sensor says that the grip lifts `lift_force`; the true contact force deviates from what it
+    says by a normal error. The object is held if the true lift force is at least its weight.
+
+    Parameters
+    ----------
+    lift_force, weight
+        N.
+    friction
+        As of `contact_force`.
+    error
+        Deviation of the measured contact force, N, > 0.
+
+    Raises
+    ------
+    InvalidInputError
+        If friction or error is not above zero, or the weight is below it.
+
+    Examples
+    --------
+    A lift force that is the weight holds every second time, whatever the sensor.
+
+    >>> holding_probability(0.6, 0.6, friction=1.0, error=0.015)
+    0.5
+    """
+    check_positive(error=error)
+    if not weight >= 0:
+        raise InvalidInputError("weight", expected="N, >= 0", got=weight)
+    spare = contact_force(lift_force - weight, friction)
+    return float(norm.cdf(spare / error))
+
 
 PRINTED_GRASPS = "tactile/grasp_printed.csv"
 
@@ -59,7 +127,7 @@ class Interval:
 
 
 def friction_interval(contact_force: Interval, lift_force: Interval) -> Interval:
-    """Return the coefficients for which Eq. (2.8) joins two rounded forces.
+    """Return the coefficients that join two rounded forces.
 
     The same function gives, for a weight in the place of the lift force, the coefficient that the
     friction must exceed for the weight to be held.

@@ -18,7 +18,7 @@ from sklearn.model_selection import (
 )
 
 from softgrip.errors import InvalidInputError
-from softgrip.tactile.accuracy_interval import Accuracy
+from softgrip.tactile.accuracy import Accuracy
 
 Right = NDArray[np.bool_]
 FOLDS = 5

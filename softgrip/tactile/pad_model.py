@@ -1,19 +1,117 @@
 """A model of a reader's own pad: from the voltages of its channels to kind or force.
 
 Both models are lazy: they keep the readings that they were given, and look up those near to a new
-one. What has to be kept is therefore these readings and a few settings, see `pad_model_file`.
+one. What has to be kept is therefore these readings and a few settings: as JSON, no code. On
+loading a model is fitted anew, and must say of a few readings what it said before: another version
+of a library that answers otherwise is found out.
 """
 
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 from sklearn.exceptions import NotFittedError
+from sklearn.pipeline import make_pipeline
+from sklearn.preprocessing import MinMaxScaler
 
 from softgrip.arrays import Floats
-from softgrip.errors import InvalidInputError
+from softgrip.errors import DataFileError, InvalidInputError, SoftgripError
+from softgrip.tactile.contact_kind import (
+    ESTIMATORS,
+    NEIGHBOURS,
+    SAMPLES,
+    bagged_neighbours,
+    nearest_neighbours,
+)
+from softgrip.tactile.nadaraya_watson import NadarayaWatson
 from softgrip.tactile.own_pad import Labels, PadReadings
-from softgrip.tactile.pad_model_settings import Settings
+
+LEAST_DRAWN = 10
+"""Readings that a base classifier needs at least; scikit-learn warns of fewer."""
+
+
+@dataclass(frozen=True)
+class KindSettings:
+    """How kinds are told apart.
+
+    Attributes
+    ----------
+    estimators
+        Base classifiers of the bagging classifier, each without one of the channels; 0 for a
+        single classifier.
+    neighbours, samples, seed
+        As in `contact_kind.bagged_neighbours`.
+    """
+
+    estimators: int = ESTIMATORS
+    neighbours: int = NEIGHBOURS
+    samples: float = SAMPLES
+    seed: int = 0
+
+    def build(self, readings: PadReadings) -> Any:
+        """Return the classifier, not fitted, for some readings.
+
+        Raises
+        ------
+        InvalidInputError
+            If the readings' labels are numbers, or fewer than two kinds, or too few
+            readings.
+        """
+        labels = readings.labels
+        kinds = sorted(set(map(str, labels)))
+        if labels.dtype.kind != "U" or len(kinds) < 2:
+            raise InvalidInputError("labels", expected="at least two kinds of contact", got=kinds)
+        if not self.estimators:
+            least, drawn = self.neighbours, len(labels)
+        else:
+            least, drawn = max(self.neighbours, LEAST_DRAWN), int(self.samples * len(labels))
+        if drawn < least:
+            raise InvalidInputError("readings", expected=f"enough to draw {least}", got=len(labels))
+        if not self.estimators:
+            return nearest_neighbours(self.neighbours)
+        return bagged_neighbours(
+            k=self.neighbours,
+            estimators=self.estimators,
+            samples=self.samples,
+            features=max(1, len(readings.channels) - 1),
+            seed=self.seed,
+        )
+
+
+@dataclass(frozen=True)
+class ForceSettings:
+    """How forces are read.
+
+    Attributes
+    ----------
+    bandwidth
+        Of `nadaraya_watson.NadarayaWatson`, in parts of each channel's range; None to choose it
+        by leaving one reading out at a time.
+    """
+
+    bandwidth: float | None = None
+
+    def build(self, readings: PadReadings) -> Any:
+        """Return the regressor, not fitted, for some readings.
+
+        Raises
+        ------
+        InvalidInputError
+            If the readings' labels are not forces, or all one.
+        """
+        labels = readings.labels
+        if labels.dtype.kind != "f" or np.unique(labels).size < 2:
+            raise InvalidInputError(
+                "labels", expected="at least two forces, N", got=np.unique(labels).tolist()[:1]
+            )
+        return make_pipeline(MinMaxScaler(), NadarayaWatson(bandwidth=self.bandwidth))
+
+
+Settings = KindSettings | ForceSettings
+
 
 TOP_COUNT = 5.0 * 1023 / 1024
 """Volts of the highest count of a converter of 10 bits and 5 V, such as the text's."""
@@ -31,7 +129,7 @@ class PadModel:
 
     Examples
     --------
-    >>> from softgrip.tactile.pad_model_settings import KindSettings
+    >>> from softgrip.tactile.pad_model import KindSettings
     >>> at_rest, pressed = [0.1, 0.1], [0.8, 0.1]
     >>> mine = PadReadings(
     ...     ("e1", "e2"),
@@ -109,3 +207,81 @@ class PadModel:
                     got=float(given[row, column]),
                 )
         return given
+
+
+FORMAT, VERSION = "softgrip pad model", 1
+EXAMPLES = 32
+"""Readings whose answers are kept."""
+SAME = 1e-9
+"""Relative difference of forces that is still the same: rounding of other processors."""
+TASKS: dict[str, type[Settings]] = {"kind": KindSettings, "force": ForceSettings}
+
+
+def save(model: PadModel, path: Path | str) -> None:
+    """Write a fitted model.
+
+    Raises
+    ------
+    sklearn.exceptions.NotFittedError
+        If it is not fitted.
+    """
+    readings = model.readings
+    task = next(name for name, kind in TASKS.items() if isinstance(model.settings, kind))
+    record = {
+        "format": FORMAT,
+        "version": VERSION,
+        "task": task,
+        "settings": asdict(model.settings),
+        "saturation": model.saturation,
+        "channels": list(readings.channels),
+        "voltages": readings.voltages.tolist(),
+        "labels": readings.labels.tolist(),
+        "answers": model.predict(_examples(readings)).tolist(),
+    }
+    Path(path).write_text(json.dumps(record) + "\n", encoding="utf-8")
+
+
+def load(path: Path | str) -> PadModel:
+    """Read a model and fit it anew.
+
+    Raises
+    ------
+    DataFileError
+        If the file is no such model, is of another version, holds what no model can be fitted
+        to, or the model answers otherwise than when it was saved.
+    """
+    file = Path(path)
+    if not file.is_file():
+        raise DataFileError(file, expected="a file", got="none")
+    try:
+        record = json.loads(file.read_text(encoding="utf-8"))
+        header = record["format"], record["version"]
+    except (ValueError, KeyError, TypeError) as error:
+        raise DataFileError(file, expected=f"a {FORMAT}", got=f"{error!r}") from None
+    if header != (FORMAT, VERSION):
+        raise DataFileError(file, expected=f"{FORMAT}, version {VERSION}", got=f"{header}")
+    try:
+        settings = TASKS[record["task"]](**record["settings"])
+        readings = PadReadings(
+            tuple(record["channels"]), np.array(record["voltages"]), np.array(record["labels"])
+        )
+        model = PadModel(settings, saturation=record["saturation"]).fit(readings)
+        answers = np.array(record["answers"])
+    except (SoftgripError, ValueError, KeyError, TypeError) as error:
+        raise DataFileError(file, expected="a model that can be fitted", got=f"{error}") from None
+    found = model.predict(_examples(readings))
+    same = (
+        np.array_equal(found, answers)
+        if found.dtype.kind == "U"
+        else found.shape == answers.shape and np.allclose(found, answers, rtol=SAME, atol=0)
+    )
+    if not same:
+        raise DataFileError(file, expected="the answers it was saved with", got="others")
+    return model
+
+
+def _examples(readings: PadReadings) -> Floats:
+    """Return readings between those of the training, which a lazy model does not know by heart."""
+    voltages = readings.voltages
+    some = np.linspace(0, len(voltages) - 1, min(EXAMPLES, len(voltages))).astype(int)
+    return np.asarray((voltages[some] + voltages[some[::-1]]) / 2)

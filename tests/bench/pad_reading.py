@@ -8,10 +8,10 @@ import numpy as np
 from softgrip.logs.contacts import read_contacts
 from softgrip.provenance import data_file
 from softgrip.tactile.contact_kind import bagged_neighbours
-from softgrip.tactile.contact_place import place
+from softgrip.tactile.contact_pose import place
+from softgrip.tactile.fast_kind import FastKind
 from softgrip.tactile.nadaraya_watson import NadarayaWatson
 from softgrip.tactile.pad_layout import THREE_TWO_THREE
-from softgrip.tactile.pad_model_fast import FastKind
 from tests.bench.entry import Entry
 
 PARTS = ("kind", "place", "force")

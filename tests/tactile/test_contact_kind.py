@@ -1,4 +1,4 @@
-"""Eq. (2.3)-(2.4) and the classifiers, against votes counted by hand."""
+"""Eq. (2.4) and the classifiers, against votes counted by hand."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What a set of contacts refuses, and how it is taken apart."""
+"""Eq. (2.3): eight responses from 0 to 1; what contacts refuse, and how they are taken apart."""
 
 import numpy as np
 import pytest

@@ -6,13 +6,14 @@ import pytest
 from softgrip.errors import InvalidInputError, UnknownNameError
 from softgrip.provenance import Provenance, data_file
 from softgrip.tactile.element import STATED_MODULUS, TABLE_MODULUS, Element, compliance
-from softgrip.tactile.element_cut import cut_for, largest_for
 from softgrip.tactile.element_fem import solve
 from softgrip.tactile.element_results import (
     STATED_CYLINDER,
     TABLES,
+    cut_for,
     fem_deformation,
     finest,
+    largest_for,
     read,
 )
 from softgrip.tactile.element_table import ASSUMED, table_2_1

@@ -1,4 +1,4 @@
-"""Least forces and the order of the shapes: inverses, ratios, bounds, and what the text prints."""
+"""Resistance of the skin, least forces and the order of the shapes: by hand, inverses, bounds."""
 
 import numpy as np
 import pytest
@@ -7,15 +7,18 @@ from hypothesis import strategies as st
 
 from softgrip.errors import InvalidInputError
 from softgrip.tactile.element import STATED_MODULUS, TABLE_MODULUS, Element
-from softgrip.tactile.element_resistance import AT_REST
 from softgrip.tactile.element_results import read
 from softgrip.tactile.element_sensitivity import (
+    AT_REST,
+    CEILING,
     equal_cut,
     least_force,
     relative_compliance,
+    resistance,
     resistance_under,
 )
 from softgrip.tactile.element_table import ASSUMED
+from softgrip.units import MM
 
 CUTS = st.floats(0.02, 0.98)
 
@@ -87,3 +90,38 @@ def test_sharp_tops_feel_any_force():
 def test_bad_input_is_refused(call, message):
     with pytest.raises(InvalidInputError, match=message):
         call()
+
+
+def test_range_is_the_printed_one():
+    assert resistance(0.0) == 1.0e6
+    assert resistance(3 * MM) == resistance(1.0) == pytest.approx(1.5e6)
+
+
+@given(part=st.floats(0, 0.33))
+def test_film_keeps_its_volume(part):
+    """Square of side a and thickness t: R = rho a / (a t), and a a t stays, as does a a h."""
+    side = 1 / np.sqrt(1 - part)
+    thickness = 1 / side**2
+    assert resistance(part * 3 * MM) / AT_REST == pytest.approx(side / (side * thickness))
+
+
+@given(st.lists(st.floats(0, 5e-3), min_size=2))
+def test_rises_and_stays_in_range(shortening):
+    found = resistance(np.sort(shortening))
+    assert (np.diff(found) >= 0).all()
+    assert (found >= AT_REST).all()
+    assert (found <= CEILING * (1 + 1e-12)).all()
+
+
+@pytest.mark.parametrize(
+    ("given_", "message"),
+    [
+        ({"shortening": -1e-3}, "shortening: expected m, >= 0"),
+        ({"shortening": np.array([np.nan])}, "shortening"),
+        ({"shortening": 0.0, "height": 0.0}, "height"),
+        ({"shortening": 0.0, "ceiling": 1.0}, "ceiling"),
+    ],
+)
+def test_resistance_beyond_its_range_is_refused(given_, message):
+    with pytest.raises(InvalidInputError, match=message):
+        resistance(**given_)

@@ -11,9 +11,7 @@ from sklearn.exceptions import NotFittedError
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.tactile.contact_kind import bagged_neighbours, nearest_neighbours
 from softgrip.tactile.own_pad import PadReadings
-from softgrip.tactile.pad_model import TOP_COUNT, PadModel
-from softgrip.tactile.pad_model_file import load, save
-from softgrip.tactile.pad_model_settings import ForceSettings, KindSettings
+from softgrip.tactile.pad_model import TOP_COUNT, ForceSettings, KindSettings, PadModel, load, save
 
 
 def kinds_of(channels=8, count=60, seed=0):

@@ -10,7 +10,7 @@ from book.chapter_2 import tables_kind as tables
 from book.chapter_2.kinds import OBJECTS, TRAINING, contacts, kept
 from book.companion.save import numbers
 from book.companion.style import style
-from softgrip.tactile.accuracy_interval import Accuracy, counts_behind
+from softgrip.tactile.accuracy import Accuracy, counts_behind
 from softgrip.tactile.kind_evaluation import SplitScore
 
 

@@ -12,9 +12,9 @@ from softgrip.errors import UnknownNameError
 from softgrip.logs.reader import read_log
 from softgrip.provenance import Provenance, data_file
 from softgrip.simulator.force_layer import ForceLayer
-from softgrip.tactile.bandwidth import best_bandwidth
 from softgrip.tactile.force import WEIGHTS, table_2_2
 from softgrip.tactile.force_comparison import cross_validated, regressors, root_mean_square
+from softgrip.tactile.nadaraya_watson import best_bandwidth
 from softgrip.units import GRAM_FORCE
 
 

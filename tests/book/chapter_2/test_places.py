@@ -7,8 +7,7 @@ from book.chapter_2.places import ideal_responses, place_errors
 from softgrip.logs.contacts import read_contacts
 from softgrip.provenance import data_file
 from softgrip.simulator.pad_surface import Pose
-from softgrip.tactile.contact_line import angle_between, line_angle
-from softgrip.tactile.contact_place import place
+from softgrip.tactile.contact_pose import angle_between, line_angle, place
 from softgrip.tactile.contacts import Contacts
 from softgrip.tactile.pad_layout import THREE_TWO_THREE as PAD
 from softgrip.units import DEG, MM

@@ -9,7 +9,7 @@ from sklearn.exceptions import NotFittedError
 from softgrip.errors import InvalidInputError
 from softgrip.tactile.contact_kind import bagged_neighbours
 from softgrip.tactile.contacts import KINDS
-from softgrip.tactile.pad_model_fast import FastKind
+from softgrip.tactile.fast_kind import FastKind
 
 
 def readings(count, seed, *, steps):

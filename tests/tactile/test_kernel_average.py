@@ -1,4 +1,4 @@
-"""Kernel averages against sums written out, and the fast ones against their bound."""
+"""Eq. (2.6) and Eq. (2.7) against sums written out, and the fast sums against their bound."""
 
 import math
 from decimal import Decimal, localcontext
@@ -9,8 +9,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from softgrip.errors import InvalidInputError
-from softgrip.tactile.kernel_average import exact_average
-from softgrip.tactile.kernel_sum import BOUND, EXPONENT, MARGIN, fast_average, moments, plan
+from softgrip.tactile.kernel_average import (
+    BOUND,
+    EXPONENT,
+    MARGIN,
+    exact_average,
+    fast_average,
+    moments,
+    plan,
+)
 
 ROUNDING = 1e-13
 """Of sums over up to 200 terms and exponents up to 50, each with an error of 1e-16."""
