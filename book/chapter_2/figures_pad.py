@@ -1,30 +1,31 @@
-"""Figures of Chapter 2 on the pad: what it shows, place and pose of a contact."""
+"""Figures and tables of Chapter 2 on the pad: what it shows, place and angle of a contact."""
 
-from functools import cache
 from typing import Any
 
 import numpy as np
+import pandas as pd
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
-from book.chapter_2.contacts import PAD_SEED
-from book.chapter_2.places import PlaceErrors, ideal_responses, place_errors, responses_to
-from book.chapter_2.sliders_pad import draw_elements, draw_estimate, outline
-from book.companion.exhibit import figure
-from book.companion.style import BLUE, GREEN, ORANGE, VERMILION, WIDTH
+from book.chapter_2.logs import OBJECTS, PAD_SEED, TRAINING, contacts, errors
+from book.companion.exhibit import figure, table
+from book.companion.style import BLACK, BLUE, GREEN, ORANGE, VERMILION, WIDTH
 from softgrip.arrays import Floats
-from softgrip.logs.contacts import read_contacts
-from softgrip.provenance import Provenance, data_file
+from softgrip.provenance import Provenance
 from softgrip.simulator import pad_calibration_table
-from softgrip.simulator.pad import make_pad, press
-from softgrip.simulator.pad_objects import pad_object
+from softgrip.simulator.pad import ideal_responses, make_pad, press, responses_to
+from softgrip.simulator.pad_calibration_table import KEPT
+from softgrip.simulator.pad_objects import PadObject, pad_object
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_surface import Pose
-from softgrip.tactile.contact_pose import line_angle, place
-from softgrip.tactile.contacts import KINDS, Contacts
-from softgrip.tactile.pad_layout import THREE_TWO_THREE
+from softgrip.tactile.contact_pose import FELT, line_angle, place
+from softgrip.tactile.contacts import KINDS
+from softgrip.tactile.pad_layout import ELEMENT_SIDE, PAD_SIZE, THREE_TWO_THREE
 from softgrip.units import DEG, MM
 
-LOGS = ("simulated/pad-training.csv", "simulated/pad-objects.csv")
+LOGS = (TRAINING, OBJECTS)
 CALIBRATION = pad_calibration_table.FILE
 GRASPS = (
     ("egg", (0.0, 2.0), 0.0, 0.30),
@@ -40,16 +41,72 @@ BALL, ROD, FORCE = "ball 20 mm", "rod 20 mm", 0.15
 """What the maps are drawn with, and its force, N."""
 
 
-@cache
-def contacts(name: str) -> Contacts:
-    """Return the contacts of a simulated log below ``data/``."""
-    return read_contacts(data_file(name).path)
+COLOURS = LinearSegmentedColormap.from_list("touch", ["#FFFFFF", "#FC9272", "#A50F15"])
+"""White at rest to dark red, ever darker: light and dark tell the same without colour."""
 
 
-@cache
-def errors(name: str) -> PlaceErrors:
-    """Return the errors of its contacts."""
-    return place_errors(contacts(name), THREE_TWO_THREE)
+def outline(item: PadObject, pose: Pose) -> Floats:
+    """Return the profile that an object shows where it faces the pad, mm, shape (N, 2).
+
+    That of a point contact is the circle or ellipse in which its surface has risen by the height
+    of an element's half, 1.5 mm: it has no edge.
+    """
+    if item.kind == "point":
+        turn = np.linspace(0, 2 * np.pi, 61)
+        # Of a paraboloid, which at this height a ball still is.
+        half = np.minimum(np.sqrt(2 * 1.5 * MM * np.array(item.radii)), item.radii)
+        shape = np.stack([half[0] * np.cos(turn), half[1] * np.sin(turn)], axis=1)
+    else:
+        half = np.array(item.size) / 2
+        if item.kind == "line":
+            half[1] = min(half[1], np.sqrt(2 * 1.5 * MM * item.radii[1]))
+        shape = half * np.array([(1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1)])
+    cosine, sine = np.cos(pose.angle), np.sin(pose.angle)
+    turned = shape @ np.array([[cosine, sine], [-sine, cosine]])
+    found: Floats = (turned + pose.place) / MM
+    return found
+
+
+def draw_elements(axes: Any, responses: Floats, profile: Floats | None = None) -> Any:
+    """Draw the elements as squares, white at rest to dark red, with the responses that are felt.
+
+    Returns
+    -------
+    ScalarMappable
+        What a colour bar takes.
+    """
+    scale = ScalarMappable(cmap=COLOURS)
+    scale.set_clim(0, 1)
+    length, width = (value / MM for value in PAD_SIZE)
+    side = ELEMENT_SIDE / MM
+    axes.add_patch(Rectangle((-length / 2, -width / 2), length, width, fc="none", ec=BLACK, lw=0.8))
+    for (x, y), response in zip(THREE_TWO_THREE.places / MM, responses, strict=True):
+        axes.add_patch(
+            Rectangle((x - side / 2, y - side / 2), side, side, fc=scale.to_rgba(response),
+                      ec=BLACK, lw=0.8)
+        )  # fmt: skip
+        if response > FELT:
+            ink = "white" if response > 0.6 else BLACK
+            axes.text(x, y + side / 2 - 0.4, f"{response:.2f}", ha="center", va="top",
+                      fontsize=8, color=ink)  # fmt: skip
+    if profile is not None:
+        axes.plot(*profile.T, color=GREEN, ls="--", lw=1.8)
+    axes.set(xlim=(-length / 2 - 1, length / 2 + 1), ylim=(-width / 2 - 1, width / 2 + 1))
+    axes.set(aspect="equal")
+    axes.grid(False)
+    return scale
+
+
+def draw_estimate(axes: Any, responses: Floats, *, line: bool) -> None:
+    """Draw the estimated place as a cross, and the direction of a line through it, if any."""
+    x, y = place(responses, THREE_TWO_THREE) / MM
+    if not np.isfinite(x):
+        return
+    axes.plot(x, y, "x", color=BLUE, ms=8, mew=2)
+    angle = float(line_angle(responses, THREE_TWO_THREE))
+    if line and np.isfinite(angle):
+        along = 14 * np.array([-1, 1])
+        axes.plot(x + along * np.cos(angle), y + along * np.sin(angle), color=BLUE, lw=1.2)
 
 
 @figure(
@@ -175,3 +232,62 @@ def _signed_error(offset: float, angle: float) -> float:
     middle = (-offset * np.sin(angle), offset * np.cos(angle))
     found = line_angle(ideal_responses(ROD, Pose(middle, angle), FORCE), THREE_TWO_THREE)
     return float((found - angle + np.pi / 2) % np.pi - np.pi / 2)
+
+
+def _row(name: str, log: str, chosen: Any) -> dict[str, object]:
+    """Return errors of some contacts of a log."""
+    off = errors(log)
+    at, angle = off.place[chosen] / MM, off.angle[chosen] / DEG
+    felt, told = at[np.isfinite(at)], angle[np.isfinite(angle)]
+    return {
+        "contacts": name,
+        "number": int(at.size),
+        "elements felt": f"{off.elements[chosen].mean():.1f}",
+        "place: median (mm)": f"{np.median(felt):.1f}",
+        "place: 90 % (mm)": f"{np.percentile(felt, 90):.1f}",
+        "nothing felt": int(at.size - felt.size),
+        "angle: median (deg)": f"{np.median(told):.0f}" if told.size else "",
+        "angle: 90 % (deg)": f"{np.percentile(told, 90):.0f}" if told.size else "",
+    }
+
+
+@table(
+    "2.C",
+    caption="Errors of place and angle on the *simulated* pad: half and nine tenths of the "
+    "contacts are within them. To a line the place is counted square to it. A line's angle is said "
+    "where two elements or more are felt; by two, it can only be that of their connection.",
+    provenance=Provenance.SIMULATED,
+    data=LOGS,
+)
+def table_2_c() -> pd.DataFrame:
+    """Tabulate the errors by kind, by number of elements, and by food."""
+    learned, tested = (contacts(name) for name in LOGS)
+    rows = [_row(f"training, {kind}", LOGS[0], learned.kinds == kind) for kind in KINDS]
+    counts = errors(LOGS[0]).elements
+    for least, most, words in ((2, 2, "two"), (3, 3, "three"), (4, 8, "four and more")):
+        chosen = (learned.kinds == "line") & (counts >= least) & (counts <= most)
+        rows.append(_row(f"training, line felt by {words}", LOGS[0], chosen))
+    foods = dict.fromkeys(tested.objects.tolist())
+    rows += [_row(food, LOGS[1], tested.objects == food) for food in sorted(foods)]
+    return pd.DataFrame(rows)
+
+
+@table(
+    "2.D",
+    caption="What is assumed of the simulated pad: nothing is printed that could calibrate it. The "
+    "first two lines are printed numbers beside what it gives; no parameter was set by them.",
+    provenance=Provenance.SIMULATED,
+    data=(CALIBRATION,),
+)
+def table_2_d() -> pd.DataFrame:
+    """Tabulate the assumptions of the simulated pad."""
+    return pd.DataFrame(
+        {
+            "use": line.use,
+            "quantity": line.quantity,
+            "printed": line.printed,
+            "pad": f"{line.rig:.3g}",
+            "unit": line.unit,
+        }
+        for line in KEPT.read()
+    )

@@ -12,8 +12,8 @@ from types import MappingProxyType
 
 import numpy as np
 
-from book.chapter_2.contacts import PAD_SEED
 from book.chapter_2.forces import to_force
+from book.chapter_2.logs import PAD_SEED
 from softgrip.arrays import Floats
 from softgrip.control.pid import PERIOD, Gains
 from softgrip.control.step_metrics import step_metrics

@@ -5,15 +5,14 @@ Section 2.4. Right answers are kept as counts, so that intervals can be put on t
 """
 
 from collections.abc import Iterator
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from book.chapter_2.logs import OBJECTS, TRAINING, contacts
 from softgrip.kept import write_data
-from softgrip.logs.contacts import read_contacts
 from softgrip.provenance import data_file, data_folder
 from softgrip.tactile.accuracy import Accuracy
 from softgrip.tactile.contact_kind import bagged_neighbours, classifiers, nearest_neighbours
@@ -27,16 +26,11 @@ from softgrip.tactile.kind_evaluation import (
     split_score,
 )
 
-TRAINING, OBJECTS = "simulated/pad-training.csv", "simulated/pad-objects.csv"
 NEIGHBOURS = range(1, 11)
+TOTALS = {"cross_validated": "trained", "tested": "tested_of"}
+"""Column of the contacts for each column of right answers."""
 SPLITS, DRAWS = 20, 200
 """Seeds of splits in training and testing, and of the bagging classifier's draws."""
-
-
-@cache
-def contacts(name: str) -> Contacts:
-    """Read a log of the simulated pad, `TRAINING` or `OBJECTS`."""
-    return read_contacts(data_file(name).path)
 
 
 def right_on_objects(model: Any, training: Contacts | None = None) -> Right:
@@ -126,6 +120,21 @@ STUDIES = {
 def kept(study: str) -> pd.DataFrame:
     """Read a kept file; `study` is a key of `STUDIES`."""
     return pd.read_csv(data_file(f"tactile/kind_{study}.csv").path, comment="#")
+
+
+def split_shares(classifier: str, part: str) -> "pd.Series[float]":
+    """Return right answers of a classifier by contacts, one for each split.
+
+    Parameters
+    ----------
+    classifier
+        A key of `classifiers`.
+    part
+        "cross_validated" or "tested".
+    """
+    rows = kept("classifiers")
+    rows = rows[rows["classifier"] == classifier]
+    return rows[part] / rows[TOTALS[part]]
 
 
 def kept_neighbours() -> dict[int, list[SplitScore]]:

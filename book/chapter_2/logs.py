@@ -1,21 +1,96 @@
-"""How the simulated logs of the pad are made: training, and objects that training did not know."""
+"""The two simulated logs of the pad: which contacts they hold, and how they are made.
 
-from functools import partial
+As in Sections 2.3 and 2.4: 630 contacts to learn from (its objects are not printed: here 21, seven
+a kind, 30 contacts each), and the eight foods with ten contacts each. Objects, places and angles
+come in random order.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
-from book.chapter_2.contacts import BETWEEN, PAD_SEED, PAD_TESTS, draw_contacts
 from softgrip.arrays import Floats
 from softgrip.logs.contacts import PRESS, REST, TRUTH, read_contacts
 from softgrip.logs.schema import PAD_CHANNELS, LogHeader
 from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance, data_file
-from softgrip.simulator.chance import streams
+from softgrip.simulator.chance import SEED, streams
 from softgrip.simulator.pad import convert, make_pad, press, to_volts, voltages
+from softgrip.simulator.pad_objects import FOODS, OTHERS, PadObject
 from softgrip.simulator.pad_parameters import PadParameters
-from softgrip.tactile.contacts import ELEMENTS
+from softgrip.simulator.pad_surface import Pose
+from softgrip.tactile.contact_pose import PlaceErrors, place_errors
+from softgrip.tactile.contacts import ELEMENTS, Contacts
+from softgrip.tactile.pad_layout import THREE_TWO_THREE
+from softgrip.units import DEG, MM
+
+FORCES = (0.05, 0.3)
+"""Least and largest contact force, N (assumed: they hold the three grasps of Section 2.4)."""
+REACH = {"point": (12 * MM, 11 * MM), "line": (4 * MM, 4 * MM), "surface": (3 * MM, 3 * MM)}
+"""Largest offset of an object's middle along and across the pad, m (assumed)."""
+BETWEEN = 10.0
+"""Time from contact to contact, s (assumed)."""
+
+
+@dataclass(frozen=True)
+class PadTest:
+    """What a log of the pad holds.
+
+    Attributes
+    ----------
+    objects
+        What is pressed on it.
+    repeats
+        Contacts of each.
+    seed
+        Of order, places, forces, surfaces and noise.
+    words
+        What the log shows.
+    """
+
+    objects: tuple[PadObject, ...]
+    repeats: int
+    seed: int
+    words: str
+
+
+PAD_SEED = SEED
+"""Of the pad: both logs are of the same one."""
+
+PAD_TESTS = {
+    "pad-training": PadTest(
+        (*FOODS, *OTHERS), 30, 2025, "630 contacts of 21 objects to learn the contact kind from"
+    ),
+    "pad-objects": PadTest(FOODS, 10, 2026, "80 contacts of the eight foods of Section 2.4"),
+}
+"""The logs by name."""
+
+
+def draw_pose(item: PadObject, tilt: float, chance: np.random.Generator) -> Pose:
+    """Return a random pose: uniform place and angle, normal tilt with a deviation in rad."""
+    reach = REACH[item.kind]
+    x, y = (float(chance.uniform(-r, r)) for r in reach)
+    angle = float(chance.uniform(-90 * DEG, 90 * DEG))
+    along, across = (float(tilt * value) for value in chance.standard_normal(2))
+    # A round object rolls until it is level: there is no way to hold it otherwise.
+    level = {"point": (0.0, 0.0), "line": (along, 0.0), "surface": (along, across)}
+    return Pose((x, y), angle, level[item.kind])
+
+
+def draw_contacts(
+    test: PadTest, tilt: float, chance: np.random.Generator
+) -> Iterator[tuple[PadObject, Pose, float]]:
+    """Yield the contacts of a test in their order: object, pose and force, N."""
+    order = chance.permutation(np.repeat(np.arange(len(test.objects)), test.repeats))
+    for number in order:
+        item = test.objects[number]
+        pose = draw_pose(item, tilt, chance)
+        # To a millinewton, as the command of a press would be.
+        yield item, pose, round(float(chance.uniform(*FORCES)), 3)
+
 
 FULL = 0.3
 """Force that brings an element to the end of its range, N: above the 0.2 N of Section 2.2."""
@@ -29,7 +104,7 @@ def write_pad_log(name: str, path: Path, source: str) -> None:
     Parameters
     ----------
     name
-        A key of `contacts.PAD_TESTS`.
+        A key of `PAD_TESTS`.
     path
         Of the log.
     source
@@ -71,20 +146,20 @@ def write_pad_log(name: str, path: Path, source: str) -> None:
             write(f"{item.kind}: {item.name}", force, forces, (*pose.place, angle))
 
 
-def write_readings(log: str, path: Path | str) -> None:
-    """Write a kept log as a reader would write readings of a pad: volts of each element, the kind.
-
-    Parameters
-    ----------
-    log
-        Below ``data/``.
-    path
-        Of the CSV file; elements ``e1`` to ``e8``, 1 V at rest and 4 V at full range.
-    """
-    felt = read_contacts(data_file(log).path)
-    frame = pd.DataFrame(1 + 3 * felt.responses, columns=[f"e{k + 1}" for k in range(ELEMENTS)])
-    frame.assign(kind=felt.kinds).round(4).to_csv(path, index=False)
-
-
 LOGS = {name: partial(write_pad_log, name) for name in PAD_TESTS}
 """What writes each log, by name, to a path, with the command that makes it."""
+
+TRAINING, OBJECTS = "simulated/pad-training.csv", "simulated/pad-objects.csv"
+"""The logs below ``data/``."""
+
+
+@cache
+def contacts(name: str) -> Contacts:
+    """Read a log of the simulated pad, `TRAINING` or `OBJECTS`."""
+    return read_contacts(data_file(name).path)
+
+
+@cache
+def errors(name: str) -> PlaceErrors:
+    """Return the errors of place and angle of its contacts."""
+    return place_errors(contacts(name), THREE_TWO_THREE)

@@ -6,13 +6,10 @@ import numpy as np
 
 from book.chapter_2.forces import weighed_objects
 from book.chapter_2.grasps import FRICTION, desired_force, study, summary
-from book.chapter_2.kinds import kept, right_on_objects
-from book.chapter_2.places import place_errors
+from book.chapter_2.kinds import kept, right_on_objects, split_shares
+from book.chapter_2.logs import OBJECTS, contacts, errors
 from book.companion.verdict import simulated
-from softgrip.logs.contacts import read_contacts
-from softgrip.provenance import data_file
-from softgrip.simulator import pad_calibration_table
-from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.simulator.pad_objects import FOODS
 from softgrip.tactile.contact_kind import bagged_neighbours, nearest_neighbours
 from softgrip.tactile.element import STATED_MODULUS, Element, Shape, cut_sphere, shortening
 from softgrip.tactile.element_results import fem_deformation
@@ -22,27 +19,26 @@ from softgrip.tactile.force import SET, WEIGHTS, table_2_2
 from softgrip.tactile.friction import contact_force, lift_force, printed_grasps
 from softgrip.tactile.hertz import hertz_approach
 from softgrip.tactile.kind_evaluation import accuracy
-from softgrip.tactile.pad_layout import THREE_TWO_THREE
 from softgrip.units import GRAM_FORCE, MM, MPa
 
 
 def cylinder_by_equation(force: str, modulus: float = 0.125, width: float = 6.0) -> float:
-    """Return the deformation of a cylinder 3 mm high by Eq. (2.1), mm; width in mm."""
+    """Return the deformation of a cylinder 3 mm high, evenly stressed, mm; width in mm."""
     return shortening(Element("cylinder", width * MM), _newtons(force), modulus * MPa) / MM
 
 
 def hemisphere_by_equation(force: str, modulus: float, cut: float) -> float:
-    """Return the deformation of a sphere's half, 3 mm in radius and cut flat, by Eq. (2.1), mm."""
+    """Return the same of a sphere's half, 3 mm in radius and cut flat, mm."""
     return shortening(cut_sphere(cut), _newtons(force), modulus * MPa) / MM
 
 
 def pyramid_by_equation(force: str, modulus: float, cut: float) -> float:
-    """Return the deformation of a pyramid, 6 mm wide, 3 mm high and cut flat, by Eq. (2.1), mm."""
+    """Return the same of a pyramid, 6 mm wide, 3 mm high and cut flat, mm."""
     return shortening(Element("pyramid", cut=cut), _newtons(force), modulus * MPa) / MM
 
 
 def hertzian(force: str, modulus: float = 0.125, corrected: bool = False) -> float:
-    """Return the right side of Eq. (2.2) for a radius of 3 mm; corrected, a length in mm.
+    """Return Hertz's right side for a radius of 3 mm; corrected, a length in mm.
 
     As printed, without the exponent 2/3, it is no length: the number then stands for 1e-3 m^1.5.
     """
@@ -69,7 +65,7 @@ def least_force_felt(shape: Shape) -> float:
 
     The deformation is that of Eq. (2.1), the law of the skin our own.
     """
-    return least_force(ASSUMED[shape], _threshold(), STATED_MODULUS)
+    return least_force(ASSUMED[shape], read_threshold(), STATED_MODULUS)
 
 
 @simulated
@@ -78,7 +74,8 @@ def ceiling_force(modulus: float = 0.125) -> float:
     return least_force(ASSUMED["pyramid"], 0.5e6, modulus * MPa)
 
 
-def _threshold() -> float:
+def read_threshold() -> float:
+    """Return the change of resistance that a pyramid shows at 0.01 N, Ohm."""
     return float(resistance_under(ASSUMED["pyramid"], 0.01, STATED_MODULUS)) - AT_REST
 
 
@@ -92,47 +89,25 @@ def converter_rate(clock: float = 16e6, divider: float = 128, cycles: float = 13
 
 
 @simulated
-def element_ceiling() -> float:
-    """Return the force that brings an element of the simulated pad to its end, N."""
-    return pad_calibration_table.ceiling_force(PadParameters())
-
-
-@simulated
 def elements_of_a_line(share: float) -> float:
     """Return how many elements feel a line at most in a share of the simulated eight-food log."""
-    contacts = read_contacts(data_file("simulated/pad-objects.csv").path)
-    felt = place_errors(contacts, THREE_TWO_THREE).elements[contacts.kinds == "line"]
+    felt = errors(OBJECTS).elements[contacts(OBJECTS).kinds == "line"]
     # Of whole numbers, the one that is reached, none between two of them.
     return float(np.quantile(felt, share, method="inverted_cdf"))
 
-
-OBJECTS = {
-    "egg": "point",
-    "cherry tomato": "point",
-    "sponge": "surface",
-    "tofu": "surface",
-    "small carrot": "line",
-    "sliced cucumber": "line",
-    "sliced banana": "line",
-    "hot dog": "line",
-}
-"""Section 2.4: the objects that the pad was tested with, and the kind that each is taken for."""
 
 SINGLE, BAGGED = "k-nearest neighbours", "bagged neighbours"
 
 
 def object_contacts(times: int = 10) -> float:
     """Return the contacts of Section 2.4: objects, each so many times."""
-    return float(len(OBJECTS) * times)
+    return float(len(FOODS) * times)
 
 
 @simulated
 def split_accuracy(classifier: str, part: str) -> float:
     """Return the mean accuracy over 20 splits, %; `part` is "cross_validated" or "tested"."""
-    found = kept("classifiers")
-    found = found[found["classifier"] == classifier]
-    total = {"cross_validated": "trained", "tested": "tested_of"}[part]
-    return float(100 * (found[part] / found[total]).mean())
+    return float(100 * split_shares(classifier, part).mean())
 
 
 @simulated
@@ -209,7 +184,7 @@ def weighed(item: str) -> float:
 
 
 WEIGHED = {"egg": "egg", "tofu": "tofu", "carrot": "sliced carrot"}
-"""The row of Table 2.2 for each object of Section 2.4."""
+"""The row of Table 2.2 for each object; the text calls the carrot sliced, then small."""
 
 
 def pressed(name: str, friction: float) -> float:
@@ -218,7 +193,7 @@ def pressed(name: str, friction: float) -> float:
 
 
 def lift_of_desired(name: str, friction: float) -> float:
-    """Return the lift force, N, whose Eq. (2.8) gives the printed desired force of an object."""
+    """Return the lift force, N, that asks for the printed desired force of an object."""
     return lift_force(desired_force(name), friction)
 
 
@@ -234,6 +209,6 @@ def true_weight(name: str) -> float:
 
 @simulated
 def simulated_lift(name: str) -> float:
-    """Return the estimated lift force, N, of the simulated grasps at rest, Eq. (2.9)."""
+    """Return the estimated lift force, N, of the simulated grasps at rest."""
     measured = desired_force(name) - summary(study(name)).steady_error
     return lift_force(measured, FRICTION)

@@ -7,7 +7,7 @@ import numpy as np
 from softgrip.arrays import Floats
 from softgrip.simulator.chance import streams
 from softgrip.simulator.pad_contact import bed_points, element_forces, spring_stiffness
-from softgrip.simulator.pad_objects import PadObject
+from softgrip.simulator.pad_objects import PadObject, pad_object
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_surface import Pose, gap
 from softgrip.simulator.sensors import Counts
@@ -123,3 +123,17 @@ def convert(volts: Floats, parameters: PadParameters) -> Counts:
 def to_volts(counts: Counts, parameters: PadParameters) -> Floats:
     """Return the voltages that counts stand for, V."""
     return counts.astype(np.float64) * (parameters.supply / parameters.levels)
+
+
+def responses_to(pad: Pad, forces: Floats) -> Floats:
+    """Return the normalised responses, without noise, to forces on the elements, N, shape (8,)."""
+    n, full = pad.parameters.layout.elements, 1.0  # a newton: beyond the range of any element
+    rest, most, now = (voltages(pad, f)[:n] for f in (np.zeros(n), np.full(n, full), forces))
+    found: Floats = np.clip((now - rest) / (most - rest), 0, 1)
+    return found
+
+
+def ideal_responses(name: str, pose: Pose, force: float) -> Floats:
+    """Return what a pad whose elements are alike says of a smooth object, shape (8,)."""
+    pad = make_pad(PadParameters())
+    return responses_to(pad, press(pad, pad_object(name), pose, force))

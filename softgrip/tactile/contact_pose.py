@@ -3,13 +3,14 @@
 Section 2.3 says that both are estimated, not how, nor how well.
 """
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from softgrip.arrays import Floats
-from softgrip.tactile.contacts import check_responses
+from softgrip.tactile.contacts import Contacts, check_responses
 from softgrip.tactile.pad_layout import PadLayout
 
 FELT = 0.05
@@ -133,3 +134,36 @@ def angle_between(one: ArrayLike, other: ArrayLike) -> Floats:
     turned = np.abs(np.asarray(one) - np.asarray(other)) % np.pi
     found: Floats = np.minimum(turned, np.pi - turned)
     return found
+
+
+@dataclass(frozen=True, eq=False)
+class PlaceErrors:
+    """Errors of contacts against their truth.
+
+    Attributes
+    ----------
+    elements
+        How many are felt, shape (N,).
+    place
+        Between estimate and truth, m, shape (N,): to the middle of a point or a surface, square to
+        a line, as no end of it is seen. NaN if nothing is felt.
+    angle
+        Between a line and its estimate, rad, shape (N,); NaN unless a line is felt by two or more.
+    """
+
+    elements: Floats
+    place: Floats
+    angle: Floats
+
+
+def place_errors(contacts: Contacts, layout: PadLayout) -> PlaceErrors:
+    """Return the errors of place and angle."""
+    away = place(contacts.responses, layout) - contacts.places
+    # For what is no line the angle is NaN, and this not used.
+    square = np.cos(contacts.angles) * away[:, 1] - np.sin(contacts.angles) * away[:, 0]
+    line = contacts.kinds == "line"
+    return PlaceErrors(
+        moments(contacts.responses, layout).elements,
+        np.where(line, np.abs(square), np.hypot(*away.T)),
+        angle_between(line_angle(contacts.responses, layout), contacts.angles),
+    )

@@ -7,10 +7,13 @@ import pytest
 
 from softgrip.errors import InvalidInputError
 from softgrip.simulator import pad_calibration_table
-from softgrip.simulator.pad import convert, make_pad, to_volts, voltages
+from softgrip.simulator.pad import convert, ideal_responses, make_pad, to_volts, voltages
 from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.simulator.pad_surface import Pose
+from softgrip.tactile.contact_pose import angle_between, line_angle, place
 from softgrip.tactile.element import compliance
-from softgrip.units import MM
+from softgrip.tactile.pad_layout import THREE_TWO_THREE as PAD
+from softgrip.units import DEG, MM
 
 IDEAL = PadParameters()
 
@@ -81,3 +84,15 @@ def test_every_number_that_the_code_assumes_is_in_the_file():
 def test_parameters_that_cannot_be_are_refused(name):
     with pytest.raises(InvalidInputError, match=name):
         replace(IDEAL, **{name: -1 * MM})
+
+
+@pytest.mark.parametrize("k", range(8))
+def test_ball_on_an_element_is_found_there(k):
+    felt = ideal_responses("ball 20 mm", Pose(tuple(PAD.places[k])), 0.1)
+    np.testing.assert_allclose(place(felt, PAD), PAD.places[k], atol=1e-9)
+
+
+@pytest.mark.parametrize(("x", "y", "degrees"), [(0, 10, 0), (0, 0, 0), (0, -10, 0), (0, 0, 90)])
+def test_rod_over_a_row_or_the_middle_is_found_with_its_angle(x, y, degrees):
+    felt = ideal_responses("rod 20 mm", Pose((x * MM, y * MM), degrees * DEG), 0.2)
+    assert angle_between(line_angle(felt, PAD), degrees * DEG) < 0.1 * DEG

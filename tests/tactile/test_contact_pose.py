@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from softgrip.errors import InvalidInputError
-from softgrip.tactile.contact_pose import FELT, angle_between, line_angle, place
+from softgrip.tactile.contact_pose import FELT, angle_between, line_angle, place, place_errors
+from softgrip.tactile.contacts import Contacts
 from softgrip.tactile.pad_layout import THREE_TWO_THREE as PAD
 from softgrip.tactile.pad_layout import rows
 from softgrip.units import DEG
@@ -102,3 +103,19 @@ def test_angles_between_lines():
     assert angle_between([0, 80 * DEG, 1.0], [90 * DEG, -80 * DEG, 1.0]) / DEG == pytest.approx(
         [90, 20, 0]
     )
+
+
+def test_errors_are_by_hand():
+    felt = np.zeros((3, 8))
+    felt[0, 1], felt[1, [1, 6]] = 0.5, 0.5  # (0, 10) mm; the y axis
+    found = place_errors(
+        Contacts(
+            felt, ["point", "line", "surface"], ["a", "b", "c"],
+            [[3e-3, 6e-3], [4e-3, 1e-3], [0, 0]], [np.nan, np.pi / 2, np.nan], [0.1, 0.1, 0.1],
+        ),
+        PAD,
+    )  # fmt: skip
+    # A 3-4-5 triangle; a line along y that is 4 mm off; nothing felt.
+    np.testing.assert_allclose(found.place, [5e-3, 4e-3, np.nan], atol=1e-12)
+    np.testing.assert_allclose(found.angle, [np.nan, 0, np.nan], atol=1e-12)
+    assert found.elements.tolist() == [1, 2, 0]

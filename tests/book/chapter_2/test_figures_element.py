@@ -7,8 +7,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from book.chapter_2 import figures_element as figures
-from book.chapter_2 import tables_element as tables
-from book.chapter_2.sliders_element import draw_element, outlines
+from book.chapter_2.sliders import draw_element, outlines
 from softgrip.tactile.element import SHAPES, Element, shortening
 from softgrip.tactile.element_fem import solve
 from softgrip.tactile.element_results import finest
@@ -32,7 +31,7 @@ def test_figures_are_drawn_the_same_twice(name):
 
 
 def test_table_2_1_stands_beside_the_printed_one():
-    found = tables.table_2_1_recomputed().set_index(["shape", "method"])
+    found = figures.table_2_1_recomputed().set_index(["shape", "method"])
     assumed = found["E = 0.1, assumed element"]
     for key in found.index:
         assert (assumed[key] == found["printed"][key]) == (key[1] != "FEM")
@@ -40,7 +39,7 @@ def test_table_2_1_stands_beside_the_printed_one():
 
 def test_inputs_that_rows_ask_for():
     """Solved here in closed form, there from the elements: the same numbers."""
-    found = tables.table_2_a()
+    found = figures.table_2_a()
     asked = found[found["E"] == "0.1"].set_index("input")["asked for"]
     spans = {name: [float(x) for x in span.split(" to ")] for name, span in asked.items()}
     for words, value in (
@@ -54,7 +53,7 @@ def test_inputs_that_rows_ask_for():
 
 
 def test_table_2_b_has_a_row_for_each_cut():
-    assert len(tables.table_2_b()) == 6
+    assert len(figures.table_2_b()) == 6
 
 
 @pytest.mark.parametrize("shape", SHAPES)

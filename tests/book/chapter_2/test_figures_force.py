@@ -4,21 +4,16 @@ import numpy as np
 import pytest
 
 from book.chapter_2 import figures_force as chapter_2_force
-from book.chapter_2 import tables_force as tables_2_force
 from book.chapter_2.figures_force import figure_2_9, figure_2_h
 from book.chapter_2.forces import weight_bandwidth, weight_points
-from book.chapter_2.sliders_force import draw_bandwidth
+from book.chapter_2.sliders import draw_bandwidth
 from book.companion.exhibit import EXHIBITS
 from book.companion.save import make, numbers
 from softgrip.provenance import Provenance
 from softgrip.tactile.nadaraya_watson import NadarayaWatson
 from softgrip.units import GRAM_FORCE
 
-OURS = [
-    item
-    for item in EXHIBITS.values()
-    if item.make.__module__ in (chapter_2_force.__name__, tables_2_force.__name__)
-]
+OURS = [item for item in EXHIBITS.values() if item.make.__module__ == chapter_2_force.__name__]
 
 
 def test_all_are_there():

@@ -4,7 +4,7 @@ import pytest
 
 from book.chapter_2 import diagrams as chapter_2_diagrams
 from book.chapter_2 import figures_grasp as chapter_2_grasp
-from book.chapter_2.tables_grasp import table_2_j, table_2_k
+from book.chapter_2.figures_grasp import table_2_j, table_2_k
 from book.companion.style import style
 
 

@@ -6,8 +6,8 @@ import pytest
 
 from book.chapter_2 import figures_kind as shown
 from book.chapter_2 import kinds as kind_study
-from book.chapter_2 import tables_kind as tables
-from book.chapter_2.kinds import OBJECTS, TRAINING, contacts, kept
+from book.chapter_2.kinds import kept
+from book.chapter_2.logs import OBJECTS, TRAINING, contacts
 from book.companion.save import numbers
 from book.companion.style import style
 from softgrip.tactile.accuracy import Accuracy, counts_behind
@@ -96,12 +96,12 @@ def test_gain_of_figure_2_e_has_every_seed():
 
 
 def test_printed_accuracies_of_the_table_stand_for_one_count_each():
-    for _, total, *percents in tables.PRINTED:
+    for _, total, *percents in shown.PRINTED_ACCURACIES:
         assert [len(counts_behind(percent, total)) for percent in percents] == [1, 1]
 
 
 def test_table_of_printed_counts_by_hand():
     """Of 80: 0 against 3 gives 2 / 2^3; 6 against 3, twice the chance of 3 or fewer of nine."""
-    row = tables.table_2_f().iloc[2]
+    row = shown.table_2_f().iloc[2]
     assert row["p"] == f"{2 / 2**3:.3f} to {2 * (1 + 9 + 36 + 84) / 2**9:.3f}"
     assert row["single"] == "92.5 %: 74"

@@ -4,10 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from book.chapter_2 import force_drift as force_layer_drift
-from book.chapter_2 import forces as force_layer_study
-from book.chapter_2.force_logs import AGES, read, simulate, write
-from book.chapter_2.force_protocols import put_down, weight_forces
+from book.chapter_2 import forces
+from book.chapter_2.force_logs import AGES, put_down, read, simulate, weight_forces, write
 from softgrip.errors import UnknownNameError
 from softgrip.logs.reader import read_log
 from softgrip.provenance import Provenance, data_file
@@ -39,10 +37,10 @@ def test_points_are_those_of_the_text():
 
 
 def test_weights_carry_no_noise():
-    forces = weight_forces()
-    found = put_down(forces, seed=5, run=0)
-    np.testing.assert_array_equal(found.force, forces)
-    assert not np.array_equal(found.counts, put_down(forces, seed=6, run=0).counts)
+    weights = weight_forces()
+    found = put_down(weights, seed=5, run=0)
+    np.testing.assert_array_equal(found.force, weights)
+    assert not np.array_equal(found.counts, put_down(weights, seed=6, run=0).counts)
 
 
 def test_without_chance_and_memory_equal_weights_read_equal():
@@ -82,29 +80,29 @@ def test_unknown_log_is_refused():
 
 
 def test_kept_drift_comes_out_again(tmp_path):
-    made = pd.read_csv(force_layer_drift.write(tmp_path / "drift.csv"), comment="#")
-    kept = force_layer_drift.kept().reset_index()
+    made = pd.read_csv(forces.write_drift(tmp_path / "drift.csv"), comment="#")
+    kept = forces.kept_drift().reset_index()
     np.testing.assert_allclose(made, kept, rtol=1e-3)
 
 
 @pytest.mark.parametrize("name", ["ordinary least squares", "Nadaraya-Watson", "neural network"])
 def test_kept_comparison_comes_out_again(name):
-    voltage, force = force_layer_study.weight_points()
+    voltage, force = forces.weight_points()
     errors = cross_validated(regressors()[name], voltage, force, groups=force) - force
-    kept = force_layer_study.kept_comparison().loc[name, force_layer_study.WHOLE]
+    kept = forces.kept_comparison().loc[name, forces.WHOLE]
     # The network's end depends on the last bits of its sums.
     assert root_mean_square(errors) == pytest.approx(kept, rel=0.05 if "net" in name else 1e-4)
 
 
 def test_repeats_hide_how_wide_the_kernel_must_be():
-    voltage, force = force_layer_study.weight_points()
+    voltage, force = forces.weight_points()
     points = best_bandwidth(voltage[:, None], force)
-    assert force_layer_study.weight_bandwidth(whole=False) == points
-    assert force_layer_study.weight_bandwidth() > 3 * points
+    assert forces.weight_bandwidth(whole=False) == points
+    assert forces.weight_bandwidth() > 3 * points
 
 
 def test_line_at_the_start_repairs_the_start_only():
-    errors = force_layer_drift.kept()
+    errors = forces.kept_drift()
     for start in AGES[1:]:
         first, last = errors.loc[(start, 1)], errors.loc[(start, 5)]
         assert first["repaired"] < first["without"] / 2
@@ -113,15 +111,17 @@ def test_line_at_the_start_repairs_the_start_only():
 
 
 def test_errors_of_a_logged_hour():
-    errors = force_layer_drift.logged_errors(2.0)
+    rows = read("long").query("`start [h]` == 2.0")
+    hour = (rows[name].to_numpy() for name in ("time [s]", "voltage [V]", "weight [N]"))
+    errors = forces.hour_errors(*hour, forces.calibrated(), forces.to_force)
     assert len(errors) == 20
     assert abs(errors["without"]).mean() > abs(errors["between"]).mean()
 
 
 def test_simulated_objects_are_ten_weighings_each():
-    found = force_layer_study.weighed_objects()
+    found = forces.weighed_objects()
     assert [*found] == [*table_2_2()]
     voltage = read("objects").query("object == 'egg'")["voltage [V]"].to_numpy()
-    forces = force_layer_study.to_force(voltage)
-    assert found["egg"].measured == pytest.approx(forces.mean())
-    assert found["egg"].deviation == pytest.approx(forces.std(ddof=1))
+    read_forces = forces.to_force(voltage)
+    assert found["egg"].measured == pytest.approx(read_forces.mean())
+    assert found["egg"].deviation == pytest.approx(read_forces.std(ddof=1))

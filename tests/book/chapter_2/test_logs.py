@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from book.chapter_2.contacts import FORCES, PAD_TESTS
+from book.chapter_2.logs import FORCES, PAD_TESTS, TRAINING, contacts, errors
 from book.companion.simulated_logs import COMMAND, make
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.logs.contacts import read_contacts
@@ -13,6 +13,7 @@ from softgrip.provenance import Provenance, data_file
 from softgrip.simulator.pad import to_volts
 from softgrip.simulator.pad_objects import FOODS
 from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.units import DEG, MM
 
 OBJECTS = data_file("simulated/pad-objects.csv").path
 
@@ -35,21 +36,21 @@ def test_log_says_its_set_up_and_its_counts_give_its_voltages(name):
 
 def test_training_has_as_many_contacts_as_printed():
     """Section 2.3: 630 responses."""
-    contacts = read_contacts(data_file("simulated/pad-training.csv").path)
-    assert len(contacts) == 630
-    objects, times = np.unique(contacts.objects, return_counts=True)
+    log = contacts(TRAINING)
+    assert len(log) == 630
+    objects, times = np.unique(log.objects, return_counts=True)
     assert (objects.size, set(times.tolist())) == (21, {30})
-    assert (contacts.forces >= FORCES[0]).all()
-    assert (contacts.forces <= FORCES[1]).all()
+    assert (log.forces >= FORCES[0]).all()
+    assert (log.forces <= FORCES[1]).all()
 
 
 def test_each_food_is_touched_ten_times():
     """Section 2.4: eight foods, ten times each; egg and tomato points, sponge and tofu surfaces."""
-    contacts = read_contacts(OBJECTS)
+    log = read_contacts(OBJECTS)
     for food in FOODS:
-        chosen = contacts.objects == food.name
-        assert (chosen.sum(), set(contacts.kinds[chosen].tolist())) == (10, {food.kind})
-    kinds = [(contacts.kinds == kind).sum() for kind in ("point", "line", "surface")]
+        chosen = log.objects == food.name
+        assert (chosen.sum(), set(log.kinds[chosen].tolist())) == (10, {food.kind})
+    kinds = [(log.kinds == kind).sum() for kind in ("point", "line", "surface")]
     assert kinds == [20, 40, 20]
 
 
@@ -106,3 +107,21 @@ def test_dead_element_is_named(tmp_path):
 def test_log_of_the_gripper_is_no_log_of_the_pad():
     with pytest.raises(DataFileError, match="set-up pad"):
         read_contacts(data_file("simulated/step-60-1.csv").path)
+
+
+def test_point_in_the_log_is_found_within_an_elements_pitch():
+    """A contact that one element feels is at most about half a pitch away from it."""
+    log = contacts(TRAINING)
+    off = errors(TRAINING).place[log.kinds == "point"]
+    assert np.median(off) < 11 * MM / 2
+    # Better than the middle of the pad, whatever is felt: the centroid tells something.
+    blind = np.hypot(*log.places[log.kinds == "point"].T)
+    assert np.median(off) < np.median(blind) / 2
+
+
+def test_line_in_the_log_has_its_angle_better_than_a_guess():
+    """A guess is off by 45 degrees in the median."""
+    angle = errors(TRAINING).angle
+    told = angle[np.isfinite(angle)]
+    assert told.size > 150
+    assert np.median(told) < 15 * DEG
