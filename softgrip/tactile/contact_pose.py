@@ -151,7 +151,7 @@ class PlaceErrors:
         Between a line and its estimate, rad, shape (N,); NaN unless a line is felt by two or more.
     """
 
-    elements: Floats
+    elements: NDArray[np.intp]
     place: Floats
     angle: Floats
 
