@@ -1,5 +1,6 @@
 """Array types of the material laws, and the checks that the laws share."""
 
+from collections.abc import Iterator
 from typing import TypeVar
 
 import numpy as np
@@ -70,3 +71,27 @@ def tensile_curve(strain: ArrayLike, stress: ArrayLike, *, at_least: int) -> tup
             "stress", expected="at least one value > 0", got=f"a largest value of {s.max():g}"
         )
     return e, s
+
+
+def chunks(runs: int, bytes_per_run: float, *, limit: float = 64e6) -> Iterator[slice]:
+    """Cut a batch into pieces whose output fits into memory.
+
+    Parameters
+    ----------
+    runs
+        Number of runs, >= 1.
+    bytes_per_run
+        Size of the output of one run.
+    limit
+        Largest output held at a time, bytes.
+
+    Examples
+    --------
+    >>> [(part.start, part.stop) for part in chunks(5, 8.0, limit=16.0)]
+    [(0, 2), (2, 4), (4, 5)]
+    """
+    if runs < 1 or not bytes_per_run > 0:
+        raise InvalidInputError("runs", expected=">= 1, of more than 0 bytes", got=runs)
+    size = max(1, int(limit // bytes_per_run))
+    for start in range(0, runs, size):
+        yield slice(start, min(start + size, runs))

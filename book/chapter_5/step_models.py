@@ -15,8 +15,7 @@ from typing import Literal
 import numpy as np
 
 from softgrip.arrays import Floats
-from softgrip.dynamics.fitted_finger import FittedFinger
-from softgrip.dynamics.ludwick_fit import fit_finger
+from softgrip.dynamics.ludwick_fit import FittedFinger, fit_finger
 from softgrip.errors import UnknownNameError
 from softgrip.logs.repeated_steps import StepTest, read_step_test
 from softgrip.provenance import data_file

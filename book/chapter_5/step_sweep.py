@@ -22,8 +22,7 @@ from book.chapter_5.step_models import (
 )
 from softgrip.arrays import Floats
 from softgrip.dynamics.linear import second_order
-from softgrip.dynamics.sampled_response import response
-from softgrip.dynamics.second_order import SecondOrder
+from softgrip.dynamics.second_order import SecondOrder, response
 from softgrip.kept import Kept
 from softgrip.logs.repeated_steps import StepTest
 from softgrip.simulator.calibration import design_1, design_3

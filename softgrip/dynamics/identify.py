@@ -8,8 +8,7 @@ from scipy.optimize import least_squares
 from scipy.stats import t as student
 
 from softgrip.arrays import Floats
-from softgrip.dynamics.sampled_response import Hold, response
-from softgrip.dynamics.second_order import SecondOrder
+from softgrip.dynamics.second_order import Hold, SecondOrder, response
 from softgrip.errors import InvalidInputError
 
 LEAST_SAMPLES = 8

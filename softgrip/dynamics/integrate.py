@@ -1,11 +1,12 @@
 """Fixed-step integration of many runs at once: a run is a column, a state is a row.
 
 A law here fills an array of slopes that it is handed, so that the inner loop makes no arrays of its
-own. The step is one for all runs; `step_size.step_for` chooses it by measurement, because
-the order of a method says little where the law is not smooth (a fractional power at zero).
+own. The step is one for all runs; `step_for` chooses it by measurement, because the order of a
+method says little where the law is not smooth (a fractional power at zero).
 """
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from math import ceil
 
 import numpy as np
@@ -170,3 +171,61 @@ def rk4(
         if a < b:
             np.dot(weights[a:b], ends_flat, out=result_flat[a:b])
     return result
+
+
+@dataclass(frozen=True)
+class StepChoice:
+    """A step, and what halving it changed.
+
+    Attributes
+    ----------
+    step
+        s.
+    error
+        Largest measured error of the output at this step, in the unit of the output.
+    """
+
+    step: float
+    error: float
+
+
+def step_for(
+    error: float, solve: Callable[[float], Floats], *, first: float, smallest: float = 1e-5
+) -> StepChoice:
+    """Choose the step by halving it until halving it further changes too little to matter.
+
+    A step is judged against its half and its quarter, and the error taken as twice the larger
+    change, which holds for any order from 1 up. One halving alone can mislead: where a run crosses
+    a kink, the error depends on where in a step it crosses, and two steps may be off by the same.
+    It stays an estimate.
+
+    Parameters
+    ----------
+    error
+        Allowed error of the output, in its unit, > 0.
+    solve
+        Gives the output for a step; a few runs that stand for the batch are enough.
+    first
+        Longest step to try, s.
+    smallest
+        Where to give up, s.
+
+    Raises
+    ------
+    InvalidInputError
+        If no step down to `smallest` is good enough.
+    """
+    step, seen = first, np.inf
+    coarse, fine = solve(step), solve(step / 2)
+    while step > smallest:
+        finest = solve(step / 4)
+        changes = (np.max(np.abs(other - coarse)) for other in (fine, finest))
+        seen = 2 * float(max(changes))
+        if seen <= error:
+            return StepChoice(step, seen)
+        step, coarse, fine = step / 2, fine, finest
+    raise InvalidInputError(
+        "error",
+        expected=f"one that a step >= {smallest:g} s reaches (at best {seen:.2g})",
+        got=error,
+    )

@@ -6,8 +6,7 @@ from typing import Literal, final
 
 import numpy as np
 
-from softgrip.arrays import Floats
-from softgrip.dynamics.chunks import chunks
+from softgrip.arrays import Floats, chunks
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.batch_loop import loop_states
 from softgrip.gripper.batch_metrics import metrics

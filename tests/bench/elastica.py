@@ -17,7 +17,7 @@ import numpy as np
 from softgrip.actuator.cantilever import bend, tip_force_angle
 from softgrip.actuator.frequency import spring_constant
 from softgrip.dynamics import ludwick, second_order
-from softgrip.dynamics.step_size import step_for
+from softgrip.dynamics.integrate import step_for
 from tests.bench.elastica_runs import (
     COURANT,
     DAMPING_RATIO,

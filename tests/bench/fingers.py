@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from softgrip.dynamics.integrate import StepChoice, step_for
 from softgrip.dynamics.ludwick import LudwickFinger, step_responses
-from softgrip.dynamics.step_size import StepChoice, step_for
 
 SECONDS = 5.0
 ALLOWED = 1e-6

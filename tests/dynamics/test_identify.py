@@ -6,8 +6,7 @@ from scipy.optimize import curve_fit
 from scipy.stats import binom
 
 from softgrip.dynamics.identify import identify
-from softgrip.dynamics.sampled_response import response
-from softgrip.dynamics.second_order import SecondOrder, step_response
+from softgrip.dynamics.second_order import SecondOrder, response, step_response
 from softgrip.errors import InvalidInputError
 
 TIME = np.arange(0, 6, 0.025)

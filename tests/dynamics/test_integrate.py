@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from softgrip.dynamics.chunks import chunks
-from softgrip.dynamics.integrate import RungeKutta, hermite_weights, rk4
+from softgrip.arrays import chunks
+from softgrip.dynamics.integrate import RungeKutta, hermite_weights, rk4, step_for
 from softgrip.dynamics.ludwick import LudwickFinger, derivative
-from softgrip.dynamics.step_size import step_for
 from softgrip.errors import InvalidInputError
 
 

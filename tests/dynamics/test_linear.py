@@ -5,9 +5,8 @@ import pytest
 from scipy.integrate import quad
 
 from softgrip.dynamics import linear
-from softgrip.dynamics.ludwick import LudwickFinger, acceleration
-from softgrip.dynamics.ludwick_response import pressure_response
-from softgrip.dynamics.sampled_response import response
+from softgrip.dynamics.ludwick import LudwickFinger, acceleration, pressure_response
+from softgrip.dynamics.second_order import response
 from softgrip.errors import InvalidInputError
 
 

@@ -6,9 +6,8 @@ from scipy.stats import binom
 
 from softgrip.dynamics.identify import identify
 from softgrip.dynamics.linear import linear_finger, second_order
-from softgrip.dynamics.ludwick import LudwickFinger
+from softgrip.dynamics.ludwick import LudwickFinger, pressure_response
 from softgrip.dynamics.ludwick_fit import fit_finger
-from softgrip.dynamics.ludwick_response import pressure_response
 from softgrip.errors import InvalidInputError
 
 TIME = np.arange(0, 6, 0.05)

@@ -9,10 +9,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from softgrip.dynamics.sampled_response import response
 from softgrip.dynamics.second_order import (
     SecondOrder,
     full_state_space,
+    response,
     state_space,
     step_response,
 )

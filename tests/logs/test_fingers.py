@@ -20,8 +20,7 @@ from book.chapter_6.results import (
     recovery,
 )
 from book.companion.simulated_logs import make
-from softgrip.dynamics.sampled_response import response
-from softgrip.dynamics.second_order import SecondOrder
+from softgrip.dynamics.second_order import SecondOrder, response
 from softgrip.errors import DataFileError
 from softgrip.gripper.plant import FingerDynamics
 from softgrip.gripper.synchronization import synchronization_error
