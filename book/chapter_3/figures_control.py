@@ -24,7 +24,7 @@ from book.companion.style import (
 from softgrip.control.limited_lqr import best_within_limit, limited_loop
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import FINGER, Weights, lqr_gain, step_response
-from softgrip.control.lqr_limit import certificate, closed_loop_poles
+from softgrip.control.lqr_bound import certificate, closed_loop_poles
 from softgrip.control.minimum_time import minimum_settling_time
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.second_order import full_state_space

@@ -11,12 +11,11 @@ from book.chapter_3.regulators import FILE as GAINS
 from book.chapter_3.regulators import designed_on, regulator
 from book.chapter_4.identified_model import identified_model
 from book.companion.exhibit import table
-from softgrip.control.largest_step import largest_step
 from softgrip.control.limited_lqr import limited_loop
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import FINGER, Weights, linear_settling_time, lqr_gain
-from softgrip.control.lqr_limit import settling_at_the_bound, settling_floor
-from softgrip.control.minimum_time import minimum_settling_time
+from softgrip.control.lqr_bound import settling_at_the_bound, settling_floor
+from softgrip.control.minimum_time import largest_step, minimum_settling_time
 from softgrip.dynamics.second_order import full_state_space
 from softgrip.logs.reader import kept_log, read_log
 from softgrip.logs.steps import StepFigures, step_figures, step_log_figures

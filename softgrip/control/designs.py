@@ -16,14 +16,14 @@ from softgrip.arrays import Floats, check_positive
 from softgrip.control.loop import SPEED_LIMIT, LoopResult, run_loop
 from softgrip.control.pid import PID, Gains
 from softgrip.control.pressure_command import SET_PRESSURE
-from softgrip.control.reaction_curve import (
+from softgrip.control.state_space_plant import StateSpacePlant
+from softgrip.control.tuning import Tuned, tune
+from softgrip.control.ziegler_nichols import (
     ReactionCurve,
     integrating_reaction_curve,
     reaction_curve,
+    ziegler_nichols,
 )
-from softgrip.control.state_space_plant import StateSpacePlant
-from softgrip.control.tuning import Tuned, tune
-from softgrip.control.ziegler_nichols import ziegler_nichols
 from softgrip.dynamics.second_order import SecondOrder, full_state_space, state_space
 from softgrip.units import DEG
 

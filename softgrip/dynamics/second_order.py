@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
 
+Hold = Literal["linear", "zero"]
+
 
 @final
 @dataclass(frozen=True)
@@ -189,18 +191,6 @@ def full_state_space(system: SecondOrder, pump_gain: float) -> control.StateSpac
     )
 
 
-def _rates(
-    natural_frequency: ArrayLike, damping_ratio: ArrayLike
-) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-    w, z = np.asarray(natural_frequency, np.complex128), np.asarray(damping_ratio, np.complex128)
-    fast = w * (z + np.sqrt(z * z - 1))
-    # Their product is w**2: the difference would lose the slow rate of a strongly damped system.
-    return np.asarray(fast), np.asarray(w * w / fast)
-
-
-Hold = Literal["linear", "zero"]
-
-
 def response(
     system: SecondOrder,
     time: ArrayLike,
@@ -273,3 +263,12 @@ def response(
         rate = m + ry * dy + rr * dr
         angle[k + 1] = y
     return np.moveaxis(angle, 0, -1)
+
+
+def _rates(
+    natural_frequency: ArrayLike, damping_ratio: ArrayLike
+) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+    w, z = np.asarray(natural_frequency, np.complex128), np.asarray(damping_ratio, np.complex128)
+    fast = w * (z + np.sqrt(z * z - 1))
+    # Their product is w**2: the difference would lose the slow rate of a strongly damped system.
+    return np.asarray(fast), np.asarray(w * w / fast)

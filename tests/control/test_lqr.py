@@ -19,7 +19,7 @@ from softgrip.control.lqr import (
     lqr_gain,
     step_response,
 )
-from softgrip.control.lqr_limit import closed_loop_poles
+from softgrip.control.lqr_bound import closed_loop_poles
 from softgrip.dynamics.second_order import SecondOrder, full_state_space
 from softgrip.errors import InvalidInputError
 from softgrip.pump.flow import Pump

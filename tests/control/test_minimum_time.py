@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from softgrip.control.loop import SPEED_LIMIT, run_loop
-from softgrip.control.minimum_time import farthest, minimum_settling_time
+from softgrip.control.minimum_time import farthest, largest_step, minimum_settling_time
 from softgrip.control.pid import PID, Gains, pid_state_space
 from softgrip.control.state_space_plant import StateSpacePlant
 from softgrip.control.step_metrics import settling_time
@@ -19,6 +19,7 @@ from softgrip.units import DEG
 
 FINGER = SecondOrder(2.86, 0.7, 206 * DEG / 0.15e6)
 FULL = full_state_space(FINGER, 3600.0)
+IDENTIFIED = full_state_space(SecondOrder(1.65, 0.86, 1.49e-4), 980.0)
 
 
 def integrators(n):
@@ -103,3 +104,34 @@ def test_arguments_out_of_range(options):
 def test_negative_time_is_refused():
     with pytest.raises(InvalidInputError):
         farthest(FULL, 1.0, -1.0)
+
+
+@pytest.mark.parametrize(("n", "share"), [(1, 1), (2, 1 / 4), (3, 1 / 32)])
+def test_largest_step_from_rest_to_rest_of_integrators(n, share):
+    # A unit command for a time T: T, T^2 / 4, T^3 / 32 (full, back, full).
+    found = largest_step(integrators(n), 3.0, 2.0, band=1e-6, period=0.025)
+    # Samples alone count, so that it may come to rest up to a period later.
+    assert 3.0 * 2.0**n * share <= found * (1 + 1e-5)
+    assert found <= 3.0 * 2.025**n * share
+
+
+@pytest.mark.parametrize("band", [0.02, 0.1])
+def test_largest_step_settles_in_this_time_and_a_larger_one_does_not(band):
+    step = largest_step(IDENTIFIED, 31.4, 0.8, band=band)
+    slower = minimum_settling_time(IDENTIFIED, 1.01 * step, 31.4, band=band * 1.01 * step)
+    assert (
+        minimum_settling_time(IDENTIFIED, 0.99 * step, 31.4, band=band * 0.99 * step) <= 0.8 + 1e-9
+    )
+    assert slower > 0.8 + 1e-9
+    assert (1 - band) * step <= farthest(IDENTIFIED, 31.4, 0.8)
+
+
+def test_largest_step_is_in_proportion_to_the_limit():
+    one, two = (largest_step(IDENTIFIED, limit, 0.8, band=0.05) for limit in (10.0, 20.0))
+    assert two == pytest.approx(2 * one, rel=1e-6)
+
+
+@pytest.mark.parametrize("options", [{"time": 0.001}, {"band": 1.0}, {"limit": 0.0}])
+def test_largest_step_refuses_arguments_out_of_range(options):
+    with pytest.raises(InvalidInputError):
+        largest_step(IDENTIFIED, **({"limit": 1.0, "time": 1.0, "band": 0.1} | options))

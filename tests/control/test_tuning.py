@@ -6,10 +6,9 @@ import pytest
 
 from softgrip.control.loop import SPEED_LIMIT, LoopResult, run_loop
 from softgrip.control.pid import PID, Gains
-from softgrip.control.reaction_curve import ReactionCurve
 from softgrip.control.state_space_plant import StateSpacePlant
 from softgrip.control.tuning import LOST, Itae, tune
-from softgrip.control.ziegler_nichols import ziegler_nichols
+from softgrip.control.ziegler_nichols import ReactionCurve, ziegler_nichols
 from softgrip.dynamics.second_order import SecondOrder, full_state_space
 from softgrip.errors import InvalidInputError
 

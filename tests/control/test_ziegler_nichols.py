@@ -7,12 +7,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from softgrip.control.pid import pid_state_space
-from softgrip.control.reaction_curve import (
+from softgrip.control.ziegler_nichols import (
     ReactionCurve,
     integrating_reaction_curve,
     reaction_curve,
+    ziegler_nichols,
 )
-from softgrip.control.ziegler_nichols import ziegler_nichols
 from softgrip.dynamics.second_order import SecondOrder, full_state_space, step_response
 from softgrip.errors import InvalidInputError
 

@@ -7,18 +7,15 @@ p, and ``a(s) a(-s) < 0`` where ``zeta < 1``. So between the two it has a root: 
 closed loop lies between ``-sqrt(q_1 / q_2)`` and 0, for every p and R.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import exp, log, pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
-from softgrip.control.lqr import Weights, linear_settling_time
+from softgrip.control.lqr import Weights
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import InvalidInputError
-
-DECADES = (-1.0, 9.0)
-"""Powers of ten of ``p / R`` that `best_settling` looks through."""
 
 
 @dataclass(frozen=True)
@@ -43,22 +40,6 @@ class Certificate:
     def proves(self) -> bool:
         """Whether the signs differ, so that a real pole lies between the bound and 0."""
         return self.at_origin > 0 > self.at_bound
-
-
-@dataclass(frozen=True)
-class Best:
-    """The best settling time over all p.
-
-    Attributes
-    ----------
-    time
-        Least one found, s.
-    p
-        Where, with R = 1.
-    """
-
-    time: float
-    p: float
 
 
 def certificate(finger: SecondOrder, weights: Weights) -> Certificate:
@@ -142,24 +123,6 @@ def settling_at_the_bound(weights: Weights, band: float) -> float:
     """
     q1, q2 = _weights_of_the_proof(weights)
     return log(1 / band) / sqrt(q1 / q2)
-
-
-def best_settling(finger: SecondOrder, weights: Weights, band: float) -> Best:
-    """Look through ten decades of p, four trials each, for the least settling time.
-
-    Parameters
-    ----------
-    finger
-        The plant.
-    weights
-        Of which q is kept.
-    band
-        Share of the step, 0 to 1.
-    """
-    tried = 10 ** np.linspace(*DECADES, 41)
-    times = [linear_settling_time(finger, replace(weights, p=p, R=1.0), band) for p in tried]
-    least = int(np.argmin(times))
-    return Best(times[least], float(tried[least]))
 
 
 def _cubic(finger: SecondOrder, weights: Weights) -> tuple[float, float, float, float]:
