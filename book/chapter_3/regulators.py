@@ -19,8 +19,7 @@ from book.chapter_4.identified_model import IdentifiedModel, identified_model
 from softgrip.control.differentiator import RobustDifferentiator
 from softgrip.control.loop import SPEED_LIMIT, Controller
 from softgrip.control.lqr import FINGER, Weights, input_gain, lqr_gain
-from softgrip.control.observer_feedback import ObserverFeedback
-from softgrip.control.state_feedback import StateFeedback
+from softgrip.control.state_feedback import ObserverFeedback, StateFeedback
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import UnknownNameError
 from softgrip.kept import Kept

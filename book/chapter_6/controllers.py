@@ -10,7 +10,7 @@ import numpy as np
 from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import Weights, lqr_gain
-from softgrip.control.observer_feedback import ObserverFeedback
+from softgrip.control.state_feedback import ObserverFeedback
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.gripper.internal_model import PERIOD, InternalModelController
 from softgrip.gripper.inversion import mean_inverse

@@ -1,14 +1,19 @@
-"""The sampled regulator: a measured angle, its derivatives, and Eq. (3.30) as a motor speed."""
+"""The sampled regulators: Eq. (3.30) as a motor speed, by a differentiator or by an observer."""
 
 from typing import final
 
+import control
 import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats, check_positive
 from softgrip.control.differentiator import Differentiator
 from softgrip.control.loop import SPEED_LIMIT
+from softgrip.control.lqr import canonical_form
+from softgrip.control.pid import PERIOD
+from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import InvalidInputError
+from softgrip.units import DEG
 
 SPEED_DIGITS = 6
 """Decimals of a commanded speed in rad/s: finer than any motor, and coarser than the last bits of
@@ -52,10 +57,8 @@ class StateFeedback:
         set_speed: float = SPEED_LIMIT,
     ) -> None:
         check_positive(input_gain=input_gain, set_speed=set_speed)
-        K = np.asarray(gain, dtype=np.float64)
-        if K.ndim not in (1, 2) or K.shape[0] != 3 or not np.isfinite(K).all():
-            raise InvalidInputError("gain", expected="finite, shape (3,) or (3, runs)", got=K.shape)
-        self.speed_gain, self.differentiator = set_speed / input_gain * K, differentiator
+        self.speed_gain = set_speed / input_gain * _three(gain)
+        self.differentiator = differentiator
 
     def update(self, reference: ArrayLike, measurement: ArrayLike) -> Floats:
         """Return the motor speed for one period, rad/s, shape () or (runs,).
@@ -70,3 +73,98 @@ class StateFeedback:
         error = np.asarray(reference, dtype=np.float64) - angle
         free = K[0] * error - K[1] * rate - K[2] * acceleration
         return np.asarray(np.round(free, SPEED_DIGITS))
+
+
+@final
+class ObserverFeedback:
+    """Eq. (3.30) on the states of a stationary Kalman filter, for one run or a batch of runs.
+
+    The filter knows the plant of Eq. (3.26), the command that it sent and the noise of the sensor;
+    what it does not know enters as a disturbance of the command. The state and u are read as in
+    `StateFeedback`. It starts at rest at an angle of 0.
+
+    Parameters
+    ----------
+    gain
+        K, shape (3,), or (3, runs) for a map of gains.
+    finger, input_gain
+        Plant of the design: `lqr.canonical_form` and `lqr.input_gain`.
+    noise
+        Root mean square of the measurement's noise, rad, > 0 (Section 6.4: 2 deg).
+    disturbance
+        Root mean square of that of the command, as a share of the set speed, > 0: how little the
+        model is trusted. The filter depends on its ratio to the noise alone.
+    limit, set_speed
+        Largest motor speed, and that which a share of 1 means, rad/s, > 0.
+    period
+        s, > 0.
+    """
+
+    def __init__(
+        self,
+        gain: ArrayLike,
+        finger: SecondOrder,
+        input_gain: float,
+        *,
+        noise: float = 2 * DEG,
+        disturbance: float = 1.0,
+        limit: float = SPEED_LIMIT,
+        set_speed: float = SPEED_LIMIT,
+        period: float = PERIOD,
+    ) -> None:
+        check_positive(input_gain=input_gain, noise=noise, disturbance=disturbance, limit=limit)
+        check_positive(set_speed=set_speed, period=period)
+        held = control.sample_system(canonical_form(finger, input_gain), period, "zoh")
+        _, spread, _ = control.dlqe(
+            held.A, held.B, held.C, [[disturbance**2]], [[noise**2]], method="scipy"
+        )
+        # Some libraries return the gain of the next prediction; this is that of the estimate now.
+        self._correct: Floats = spread @ held.C.T / (held.C @ spread @ held.C.T + noise**2)
+        self._step: Floats = held.A
+        self._drive: Floats = held.B
+        self._predicted: Floats = np.zeros((3, 1))
+        self.gain, self.input_gain, self.period = _three(gain), input_gain, period
+        self.limit, self.set_speed = limit / set_speed, set_speed
+
+    def linear(self) -> control.StateSpace:
+        """Return it from the measurement [rad] to the motor speed [rad/s], without its limit.
+
+        For one gain and a reference of 0; one state a prediction, sampled.
+        """
+        K = self.gain.reshape(1, 3)
+        seen = np.eye(3) - self._correct @ [[self.input_gain, 0.0, 0.0]]
+        closed = self._step - self._drive @ K
+        return control.ss(
+            closed @ seen,
+            closed @ self._correct,
+            -self.set_speed * K @ seen,
+            -self.set_speed * K @ self._correct,
+            self.period,
+        )
+
+    def update(self, reference: ArrayLike, measurement: ArrayLike) -> Floats:
+        """Return the motor speed for one period, rad/s, within the limit, shape () or (runs,).
+
+        Parameters
+        ----------
+        reference, measurement
+            rad, floats or shape (runs,).
+        """
+        y, r = np.asarray(measurement, np.float64), np.asarray(reference, np.float64)
+        miss = y - self.input_gain * self._predicted[0]
+        found = self._predicted + self._correct * miss
+        K = self.gain.reshape(3, -1)
+        free = K[0] * r / self.input_gain - np.sum(K * found, axis=0)
+        share = np.clip(free, -self.limit, self.limit)
+        self._predicted = self._step @ found + self._drive * share
+        speed = np.round(self.set_speed * share, SPEED_DIGITS)
+        single = y.ndim == r.ndim == 0 and self.gain.ndim == 1
+        return np.asarray(speed[0] if single else speed)
+
+
+def _three(gain: ArrayLike) -> Floats:
+    """Return K, checked."""
+    K = np.asarray(gain, dtype=np.float64)
+    if K.ndim not in (1, 2) or K.shape[0] != 3 or not np.isfinite(K).all():
+        raise InvalidInputError("gain", expected="finite, shape (3,) or (3, runs)", got=K.shape)
+    return K

@@ -8,8 +8,7 @@ from softgrip.control.limited_lqr import best_within_limit, limited_loop
 from softgrip.control.loop import SPEED_LIMIT, run_loop
 from softgrip.control.lqr import Weights, input_gain, lqr_gain, step_response
 from softgrip.control.minimum_time import minimum_settling_time
-from softgrip.control.observer_feedback import ObserverFeedback
-from softgrip.control.state_feedback import StateFeedback
+from softgrip.control.state_feedback import ObserverFeedback, StateFeedback
 from softgrip.control.state_space_plant import StateSpacePlant
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.second_order import SecondOrder, full_state_space
@@ -133,3 +132,18 @@ def test_scales_out_of_range_are_refused():
         StateFeedback(GAIN, 0.0, RobustDifferentiator(1.0))
     with pytest.raises(InvalidInputError):
         ObserverFeedback(GAIN, FINGER, 1.0, noise=0.0)
+
+
+def test_linear_form_gives_the_commands_of_the_updates():
+    def regulator():
+        return ObserverFeedback(lqr_gain(FINGER, Weights()), FINGER, 2.0, limit=1e6, period=0.1)
+
+    system, one = regulator().linear(), regulator()
+    angles = 1e-2 * np.random.default_rng(1).standard_normal(40)
+    state, linear = np.zeros((3, 1)), []
+    for y in angles:
+        linear.append((system.C @ state + system.D * y).item())
+        state = system.A @ state + system.B * y
+    # Updates round to the digits in which commands are sent.
+    assert [float(one.update(0.0, y)) for y in angles] == pytest.approx(linear, abs=1e-5)
+    assert np.abs(linear).max() > 0.01
