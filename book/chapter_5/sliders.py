@@ -10,7 +10,7 @@ from book.companion.style import (
     style,
 )
 from softgrip.materials.facts import facts
-from softgrip.materials.new_material import predict_power
+from softgrip.materials.powerlaw import predict_power
 from softgrip.materials.table import (
     table_5_1,
 )

@@ -77,7 +77,7 @@ class StateFeedback:
 
 @final
 class ObserverFeedback:
-    """Eq. (3.30) on the states of a stationary Kalman filter, for one run or a batch of runs.
+    """The regulator on the states of a stationary Kalman filter, for one run or a batch of runs.
 
     The filter knows the plant of Eq. (3.26), the command that it sent and the noise of the sensor;
     what it does not know enters as a disturbance of the command. The state and u are read as in

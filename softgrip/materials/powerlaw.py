@@ -1,5 +1,6 @@
 """The fractional power from three properties of a material, Eq. (5.7) and (5.8)."""
 
+from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
@@ -7,15 +8,18 @@ from numpy.typing import ArrayLike
 from sklearn.base import BaseEstimator, RegressorMixin
 from sklearn.utils.validation import check_is_fitted, validate_data
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
-from softgrip.materials.least_squares import normal_equations
+from softgrip.materials.least_squares import Prediction, normal_equations, prediction_interval
+from softgrip.materials.table import fractional_powers, properties, table_5_1
 from softgrip.units import MPa
 
 EXPONENTS = (1.0, 0.5, 0.5)
 """Powers of E, MV and TS in Eq. (5.7)."""
 SCALES = (1 * MPa, 50.0, 10 * MPa)
 """Units of E [Pa], MV [Pa s] and TS [Pa] in Eq. (5.7); they change coefficients only."""
+
+PROPERTIES = ("young_modulus", "mixed_viscosity", "tensile_strength")
 
 
 def predictors(E: ArrayLike, MV: ArrayLike, TS: ArrayLike) -> Floats:
@@ -114,6 +118,67 @@ class FractionalPowerRegressor(RegressorMixin, BaseEstimator):  # type: ignore[m
         return tags
 
 
+@dataclass(frozen=True)
+class PowerOfNewMaterial:
+    """A predicted fractional power, and which properties lie outside the ten that it rests on."""
+
+    power: Prediction
+    extrapolates: tuple[str, ...]
+
+
+def predict_power(
+    young_modulus: float,
+    mixed_viscosity: float,
+    tensile_strength: float,
+    *,
+    fit_intercept: bool = False,
+    confidence: float = 0.95,
+) -> PowerOfNewMaterial:
+    """Predict n by Eq. (5.8), fitted to all ten materials of Table 5.1.
+
+    Parameters
+    ----------
+    young_modulus, mixed_viscosity, tensile_strength
+        E [Pa], MV [Pa s], TS [Pa] from the data sheet, each > 0. The table's E is the stress at
+        100 % strain, which suppliers call the 100 % modulus.
+    fit_intercept
+        Whether to add the constant that Eq. (5.8) does not have.
+    confidence
+        Of the interval for the n that a fit to a tensile test of the material would give.
+
+    Raises
+    ------
+    InvalidInputError
+        If a property is not a finite number above zero, or `confidence` is not in (0, 1).
+
+    Examples
+    --------
+    >>> found = predict_power(0.34e6, 20, 3.79e6)
+    >>> round(found.power.value, 2), found.extrapolates
+    (2.37, ())
+    """
+    new = (young_modulus, mixed_viscosity, tensile_strength)
+    check_positive(**dict(zip(PROPERTIES, new, strict=True)))
+    if not 0 < confidence < 1:
+        raise InvalidInputError("confidence", expected="a number in (0, 1)", got=confidence)
+    known = table_5_1().values()
+    X = properties(known)
+    interval = prediction_interval(
+        _with_constant(predictors(*X.T), fit_intercept),
+        fractional_powers(known),
+        _with_constant(predictors(*new), fit_intercept),
+        confidence=confidence,
+    )
+    outside = tuple(
+        name
+        for name, value, low, high in zip(
+            PROPERTIES, new, X.min(axis=0), X.max(axis=0), strict=True
+        )
+        if not low <= value <= high
+    )
+    return PowerOfNewMaterial(interval, outside)
+
+
 def _powers(
     X: ArrayLike, exponents: float | tuple[float, ...], scales: float | tuple[float, ...]
 ) -> Floats:
@@ -132,3 +197,9 @@ def _powers(
     if not np.all(np.greater(scales, 0)):
         raise InvalidInputError("scales", expected="numbers > 0", got=scales)
     return np.asarray((X / scales) ** exponents, dtype=np.float64)
+
+
+def _with_constant(columns: Floats, wanted: bool) -> Floats:
+    if not wanted:
+        return columns
+    return np.concatenate([columns, np.ones((*columns.shape[:-1], 1))], axis=-1)

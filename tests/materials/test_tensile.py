@@ -6,7 +6,7 @@ import pytest
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.materials import tensile
 from softgrip.materials.table import table_5_1
-from softgrip.materials.tensile_file import COLUMNS
+from softgrip.materials.tensile import COLUMNS
 
 HEADER = "PARAMETER;INFO;URL;;\nMaterial;Rubber;;;\n;;;;\n"
 TITLES = ";".join(COLUMNS) + "\n"

@@ -6,7 +6,7 @@ from book.chapter_5.sliders import draw_law, draw_new_material
 from book.companion.frames import render
 from book.companion.save import numbers
 from softgrip.errors import InvalidInputError
-from softgrip.materials.new_material import predict_power
+from softgrip.materials.powerlaw import predict_power
 
 
 def test_frames_are_drawn_without_a_warning_and_keep_their_place():

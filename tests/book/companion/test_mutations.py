@@ -18,7 +18,8 @@ from softgrip.actuator import section as cross_section
 from softgrip.control import lqr
 from softgrip.dynamics import consistency, linear, ludwick
 from softgrip.gripper import inversion, plant, reach
-from softgrip.materials import fitting, least_squares, power_curve, powerlaw
+from softgrip.materials import fitting, least_squares, powerlaw
+from softgrip.materials import ludwick as tension
 from softgrip.pump import flow, gas
 from softgrip.tactile import element, hertz
 from softgrip.tactile import lift as lifting
@@ -26,7 +27,7 @@ from softgrip.tactile import lift as lifting
 CASES: list[tuple[str, Callable, str, str, str]] = [
     (
         "Eq. (5.2): a straight line in place of the power",
-        power_curve.fit_power,
+        tension.fit_power,
         "x**p",
         "(p * x)",
         "table-5.1-n-mold-star-16-fast",
