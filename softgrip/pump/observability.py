@@ -46,21 +46,6 @@ def observability_matrix(transitions: ArrayLike, H: ArrayLike) -> Floats:
     return np.vstack(blocks)
 
 
-def observability_gramian(transitions: ArrayLike, H: ArrayLike) -> Floats:
-    """Return ``O^T O`` of the observability matrix O, shape (n, n).
-
-    A state x with ``x^T W x = 0`` leaves no trace in any measurement. Parameters and errors as for
-    `observability_matrix`.
-
-    Examples
-    --------
-    >>> observability_gramian([[[1, 0.5], [0, 1]]], [[1, 0]]).tolist()
-    [[2.0, 0.5], [0.5, 0.25]]
-    """
-    O = observability_matrix(transitions, H)  # noqa: E741 - its name in every textbook
-    return np.asarray(O.T @ O, dtype=np.float64)
-
-
 def observable_rank(transitions: ArrayLike, H: ArrayLike, scale: ArrayLike | None = None) -> int:
     """Count the directions of the state that the measurements tell of.
 

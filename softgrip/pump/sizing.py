@@ -14,8 +14,7 @@ from softgrip.errors import InvalidInputError
 from softgrip.pump.finger import Finger, swept_volume
 from softgrip.pump.flow import Pump
 from softgrip.pump.gas import ATMOSPHERE
-from softgrip.pump.motor import Motor
-from softgrip.pump.parts import MOTORS, SCREWS, SYRINGES, Screw, Syringe
+from softgrip.pump.parts import MOTORS, SCREWS, SYRINGES, Motor, Screw, Syringe
 from softgrip.units import ML, REV
 
 Order = Literal["margin", "rise time"]

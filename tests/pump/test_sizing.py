@@ -11,8 +11,15 @@ from hypothesis import strategies as st
 from softgrip.errors import InvalidInputError
 from softgrip.pump.finger import Finger, least_start_volume, swept_volume
 from softgrip.pump.gas import ATMOSPHERE, closed_volume_pressure
-from softgrip.pump.motor import Motor, winding_limited_speed
-from softgrip.pump.parts import MOTORS, SCREWS, SYRINGES, Screw, Syringe
+from softgrip.pump.parts import (
+    MOTORS,
+    SCREWS,
+    SYRINGES,
+    Motor,
+    Screw,
+    Syringe,
+    winding_limited_speed,
+)
 from softgrip.pump.sizing import size, sizings
 from softgrip.units import ML, REV
 
