@@ -87,7 +87,7 @@ def figure_6_6() -> Figure:
     provenance=Provenance.PRINTED,
 )
 def figure_6_a() -> Figure:
-    """Draw the unreachable share over frequency and the synchronisation error over time."""
+    """Draw the unreachable share over frequency and the synchronization error over time."""
     drawn = Figure(figsize=(WIDTH, 4.8))
     upper, lower = drawn.subplots(2, 1)
     frequency = np.geomspace(0.05, 100, 300)

@@ -21,7 +21,7 @@ from book.companion.style import (
     WIDTH,
 )
 from softgrip.gripper.batch_loop import unaware
-from softgrip.gripper.gripper_batch import GripperBatch, can_rest, draw_grippers
+from softgrip.gripper.gripper_batch import GripperBatch, Trial, can_rest, draw_grippers
 from softgrip.gripper.internal_model import ControllerMatrices, controller_matrices
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.monte_carlo import Outcome, simulate
@@ -29,7 +29,6 @@ from softgrip.gripper.optimal_feedforward import optimal_feedforward, trade_off
 from softgrip.gripper.plant import PRINTED
 from softgrip.gripper.reach import project
 from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
-from softgrip.gripper.trial import Trial
 from softgrip.provenance import Provenance
 from softgrip.units import DEG, REV
 
@@ -110,7 +109,7 @@ def figure_6_d() -> Figure:
     sources=f"drawn from seed {SEED}; plant and filters of Section 6.4",
 )
 def figure_6_e() -> Figure:
-    """Draw the histograms of settling time and synchronisation."""
+    """Draw the histograms of settling time and synchronization."""
     drawn = Figure(figsize=(WIDTH, 5.6))
     top, low = drawn.subplots(2, 1)
     for name in COLOURS:
@@ -119,7 +118,7 @@ def figure_6_e() -> Figure:
         settled = np.isfinite(when)
         for axes, values, edges, label in (
             (top, when[settled], np.arange(0, 3.01, 0.1), f"{name}: {settled.mean():.0%}"),
-            (low, 100 * found.synchronisation, np.arange(0, 26, 1.0), name),
+            (low, 100 * found.synchronization, np.arange(0, 26, 1.0), name),
         ):
             share = 100 * np.histogram(values, edges)[0] / PAIRS
             middle = (edges[:-1] + edges[1:]) / 2
@@ -162,7 +161,7 @@ def figure_6_f() -> Figure:
         found = outcome(name, pairs=1)
         when = float(found.settling[0].max())
         if np.isfinite(when):
-            axes.plot(when, 100 * found.synchronisation[0], "^", color=COLOURS[name], label=name)
+            axes.plot(when, 100 * found.synchronization[0], "^", color=COLOURS[name], label=name)
     axes.axvline(0.7, color=GREY, ls=":")
     axes.set(xlabel="both within 2 % after (s)", ylabel="farthest apart (%)")
     axes.set(xlim=(0.5, 2.6), ylim=(0, None))
@@ -186,7 +185,7 @@ def table_6_e() -> pd.DataFrame:
         found = outcome(name)
         when = found.settling.max(axis=2)
         settled = np.isfinite(when)
-        median, most = np.percentile(found.synchronisation, [50, 95])
+        median, most = np.percentile(found.synchronization, [50, 95])
         rows.append(
             {
                 "control": name,

@@ -1,19 +1,20 @@
-"""Many grippers in the sampled loop at once: settling, overshoot and synchronisation of each."""
+"""Many grippers in the sampled loop at once: settling, overshoot and synchronization of each."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Literal, final
 
 import numpy as np
+from joblib import Parallel, delayed
 
 from softgrip.arrays import Floats, chunks
 from softgrip.errors import InvalidInputError
-from softgrip.gripper.batch_loop import loop_states
-from softgrip.gripper.batch_metrics import metrics
-from softgrip.gripper.gripper_batch import GripperBatch
+from softgrip.gripper.batch_loop import loop_states, metrics
+from softgrip.gripper.gripper_batch import GripperBatch, Trial, draw_grippers
 from softgrip.gripper.internal_model import ControllerMatrices
+from softgrip.gripper.plant import Gripper
 from softgrip.gripper.sampled_plant import held_motion
-from softgrip.gripper.trial import Trial
 
 Keep = Literal["metrics", "trajectories"]
 
@@ -37,7 +38,7 @@ class Outcome:
         bands: s, shape (bands, count, fingers).
     overshoot
         As `step_metrics.overshoot`, share of the target, shape (count, fingers).
-    synchronisation
+    synchronization
         Largest difference between two fingers of a gripper at any time, each as the share of its
         own target that it has covered; shape (count,).
     peak_command
@@ -50,7 +51,7 @@ class Outcome:
 
     settling: Floats
     overshoot: Floats
-    synchronisation: Floats
+    synchronization: Floats
     peak_command: Floats
     angles: Floats | None = None
     commands: Floats | None = None
@@ -152,11 +153,9 @@ def _run(
     grippers: GripperBatch, controller: ControllerMatrices | None, trial: Trial, keep: bool
 ) -> Outcome:
     states = loop_states(grippers, controller, trial)
-    found, commands = metrics(grippers, states, trial), states[:, 0, :-1, 3]
+    commands = states[:, 0, :-1, 3]
     return Outcome(
-        found.settling,
-        found.overshoot,
-        found.synchronisation,
+        *metrics(grippers, states, trial),
         np.abs(commands).max(axis=1),
         _angles(grippers, states, trial) if keep else None,
         commands.copy() if keep else None,
@@ -174,3 +173,63 @@ def _angles(grippers: GripperBatch, states: Floats, trial: Trial) -> Floats:
         joined = states[block, :, :-1] @ motion.angle
         angles[block, :, 1:] = joined.reshape(*joined.shape[:2], -1)
     return angles
+
+
+def study(
+    nominal: Gripper,
+    count: int,
+    controller: ControllerMatrices | None,
+    trial: Trial,
+    *,
+    seed: int = 0,
+    parts: int = 1,
+    jobs: int | None = None,
+) -> Outcome:
+    """Draw grippers, run a trial on each and return what came of them, in order.
+
+    The parts go through `joblib.Parallel`: ``joblib.parallel_config`` says where they run, such as
+    ``backend="dask"`` for a cluster. Each part draws its own grippers, so that nothing but numbers
+    of grippers goes out and nothing but metrics comes back, whatever the parts.
+
+    Parameters
+    ----------
+    nominal, count, seed
+        As of `draw_grippers`.
+    controller, trial
+        As of `in_parts`.
+    parts
+        1 to `count`.
+    jobs
+        As joblib's `n_jobs`: how many parts at a time; None leaves it to its configuration.
+
+    Raises
+    ------
+    InvalidInputError
+        If an argument is outside its range.
+
+    Examples
+    --------
+    >>> from softgrip.gripper.plant import PRINTED
+    >>> trial = Trial((0.75, 0.85), duration=1.0, feedforward=(0.3,) * 10)
+    >>> study(PRINTED, 6, None, trial, parts=3).overshoot.shape
+    (6, 2)
+    """
+    if not 1 <= parts <= count:
+        raise InvalidInputError("parts", expected=f"1 to {count}", got=parts)
+    edges = np.linspace(0, count, parts + 1).round().astype(int).tolist()
+    work = (
+        delayed(_part)(nominal, first, last - first, controller, trial, seed)
+        for first, last in pairwise(edges)
+    )
+    return joined(list(Parallel(n_jobs=jobs)(work)))
+
+
+def _part(
+    nominal: Gripper,
+    first: int,
+    count: int,
+    controller: ControllerMatrices | None,
+    trial: Trial,
+    seed: int,
+) -> Outcome:
+    return simulate(draw_grippers(nominal, count, seed=seed, first=first), controller, trial)

@@ -15,11 +15,10 @@ from scipy.optimize import linprog
 
 from softgrip.arrays import Floats, check_positive, read_only
 from softgrip.errors import InvalidInputError
-from softgrip.gripper.gripper_batch import GripperBatch
+from softgrip.gripper.gripper_batch import GripperBatch, Trial
 from softgrip.gripper.monte_carlo import simulate
 from softgrip.gripper.plant import Gripper
 from softgrip.gripper.reach import project
-from softgrip.gripper.trial import Trial
 
 
 @dataclass(frozen=True)

@@ -26,32 +26,6 @@ def finger_response(finger: FingerDynamics, frequency: ArrayLike) -> Complex:
     return np.asarray(finger.gain / (s**3 + finger.damping * s**2 + finger.stiffness * s))
 
 
-def measured_response(
-    command: ArrayLike, angle: ArrayLike, period: float
-) -> tuple[Floats, Complex]:
-    """Return frequency [rad/s] and response of a record by FFT, without the frequency 0.
-
-    Command and angle must be at rest at both ends, or what lies outside the record leaks in. The
-    angle of a finger with a pump does not come back: take the rates of both, or what was
-    subtracted in full.
-
-    Parameters
-    ----------
-    command, angle
-        Shape (N,).
-    period
-        s, > 0.
-    """
-    check_positive(period=period)
-    u, y = np.asarray(command, dtype=np.float64), np.asarray(angle, dtype=np.float64)
-    if u.shape != y.shape or u.ndim != 1 or u.size < 4:
-        raise InvalidInputError(
-            "command, angle", expected="two arrays of one shape (N,)", got=(u.shape, y.shape)
-        )
-    frequency = np.asarray(2 * np.pi * np.fft.rfftfreq(u.size, period)[1:], dtype=np.float64)
-    return frequency, np.asarray(np.fft.rfft(y)[1:] / np.fft.rfft(u)[1:])
-
-
 def excited_band(command: ArrayLike, period: float, *, share: float) -> tuple[float, float]:
     """Return the lowest and highest frequency at which a command holds a share of its peak, rad/s.
 

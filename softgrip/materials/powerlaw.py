@@ -134,7 +134,7 @@ def predict_power(
     fit_intercept: bool = False,
     confidence: float = 0.95,
 ) -> PowerOfNewMaterial:
-    """Predict n by Eq. (5.8), fitted to all ten materials of Table 5.1.
+    """Predict n by the power law fitted to all ten materials of Table 5.1.
 
     Parameters
     ----------

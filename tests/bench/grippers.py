@@ -7,7 +7,7 @@ import control
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from softgrip.gripper.gripper_batch import GripperBatch, draw_grippers
+from softgrip.gripper.gripper_batch import GripperBatch, Trial, draw_grippers
 from softgrip.gripper.internal_model import (
     ControllerMatrices,
     InternalModelController,
@@ -18,7 +18,6 @@ from softgrip.gripper.monte_carlo import Keep, Outcome, in_parts, joined, simula
 from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, state_space
 from softgrip.gripper.reach import project
 from softgrip.gripper.shaping_filter import SLOW, filter_state_space
-from softgrip.gripper.trial import Trial
 from tests.bench.entry import Entry, interleaved, spread
 from tests.bench.growth import exponent
 
@@ -119,7 +118,7 @@ def _equality(pairs: int) -> Entry:
     true = baseline(pairs)
     apart = np.ptp(true / np.array(TRIAL.target)[:, None], axis=1).max(axis=1)
     error = max(
-        float(np.abs(found.angles - true).max()), float(np.abs(found.synchronisation - apart).max())
+        float(np.abs(found.angles - true).max()), float(np.abs(found.synchronization - apart).max())
     )
     return Entry(
         "gripper pairs, largest difference from the baseline",

@@ -1,9 +1,12 @@
 """Many grippers at once: against python-control, period by period, and against step_metrics."""
 
 import tracemalloc
+import warnings
 from dataclasses import replace
 
 import control
+import distributed
+import joblib
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -13,14 +16,13 @@ from scipy.linalg import expm
 from softgrip.control import step_metrics
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.batch_loop import sensor_noise, unaware
-from softgrip.gripper.gripper_batch import GripperBatch, draw_grippers
+from softgrip.gripper.gripper_batch import GripperBatch, Trial, draw_grippers
 from softgrip.gripper.internal_model import InternalModelController, controller_matrices
 from softgrip.gripper.inversion import mean_inverse
-from softgrip.gripper.monte_carlo import in_parts, joined, simulate
+from softgrip.gripper.monte_carlo import in_parts, joined, simulate, study
 from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, finger_state_space, state_space
 from softgrip.gripper.sampled_plant import held_motion
 from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
-from softgrip.gripper.trial import Trial
 
 TARGET = (0.714, 0.842)
 FILTERS = {"fast": filter_state_space(*FAST), "slow": filter_state_space(*SLOW)}
@@ -51,6 +53,12 @@ def forced(batch, number, trial, controller):
         state = found.states[:, -1]
         angles.append(found.outputs[:, 1:])
     return np.concatenate(angles, axis=1), np.array(commands)
+
+
+def assert_same(found, true):
+    """To rounding: a product of another size may add up in another order."""
+    for name in ("settling", "overshoot", "synchronization", "peak_command"):
+        np.testing.assert_allclose(getattr(found, name), getattr(true, name), rtol=1e-9)
 
 
 @pytest.mark.parametrize("name", LOOPS)
@@ -129,7 +137,7 @@ def test_metrics_are_those_of_step_metrics(parameters, commands, size):
     over = step_metrics.overshoot(angles, target=target)
     np.testing.assert_allclose(found.overshoot[0], over, rtol=0, atol=allowed)
     apart = np.ptp(angles / np.array(target)[:, None], axis=0).max()
-    assert found.synchronisation[0] == pytest.approx(apart, abs=allowed)
+    assert found.synchronization[0] == pytest.approx(apart, abs=allowed)
 
 
 def test_settling_at_every_kind_of_end():
@@ -155,9 +163,7 @@ def test_a_gripper_is_the_same_in_any_batch_and_part():
     assert len(parts) > 2
     pieces = joined([outcome for _, outcome in parts])
     single = simulate(alone, LOOPS["slow"], trial)
-    for name in ("settling", "overshoot", "synchronisation", "peak_command"):
-        # To rounding: a product of another size may add up in another order.
-        np.testing.assert_allclose(getattr(pieces, name), getattr(at_once, name), rtol=1e-9)
+    assert_same(pieces, at_once)
     np.testing.assert_allclose(single.settling, at_once.settling[:, 20:25], rtol=1e-9)
 
 
@@ -242,3 +248,34 @@ def test_single_finger_of_a_batch_is_eq_6_15():
         keep="trajectories",
     )  # fmt: skip
     np.testing.assert_allclose(found.angles[0, 1], angle, atol=1e-10)
+
+
+def run(**how):
+    return study(PRINTED, 60, LOOPS["slow"], Trial(TARGET, limit=5.0, noise=0.01), seed=11, **how)
+
+
+def test_parts_on_threads_give_the_serial_numbers():
+    assert_same(run(parts=7), run())
+    with joblib.parallel_config(backend="threading", n_jobs=2):
+        assert_same(run(parts=7), run())
+
+
+def test_a_dask_cluster_gives_the_serial_numbers():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the cluster's own, on its way up and down
+        with (
+            distributed.LocalCluster(
+                n_workers=2, threads_per_worker=1, processes=False, protocol="tcp",
+                host="127.0.0.1", dashboard_address="127.0.0.1:0",
+            ) as cluster,
+            distributed.Client(cluster) as client,
+        ):  # fmt: skip
+            assert len(client.scheduler_info()["workers"]) == 2
+            with joblib.parallel_config(backend="dask"):
+                found = run(parts=6)
+    assert_same(found, run())
+
+
+def test_more_parts_than_grippers_are_refused():
+    with pytest.raises(InvalidInputError, match="1 to 60"):
+        run(parts=61)

@@ -11,12 +11,11 @@ from book.chapter_6 import finger_count
 from book.chapter_6.finger_count import count_point, spread_gripper
 from softgrip.control.minimum_time import minimum_settling_time
 from softgrip.errors import InvalidInputError
-from softgrip.gripper.gripper_batch import GripperBatch, can_rest, draw_grippers
+from softgrip.gripper.gripper_batch import GripperBatch, Trial, can_rest, draw_grippers
 from softgrip.gripper.monte_carlo import simulate
 from softgrip.gripper.optimal_feedforward import optimal_feedforward, trade_off
 from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, finger_state_space, state_space
 from softgrip.gripper.reach import project
-from softgrip.gripper.trial import Trial
 from softgrip.provenance import data_file
 
 TARGET = tuple(project(PRINTED, [np.pi / 4] * 2).reached.tolist())
@@ -36,8 +35,8 @@ def test_the_command_does_what_is_said_of_it(best):
     assert found.peak_command[0] <= 5 + 1e-9
     assert found.settling[0].max() <= 1.5 + 1e-6
     # Between the points that the program looks at, the fingers are no farther apart than this.
-    assert found.synchronisation[0] == pytest.approx(best.worst_sync, rel=1e-3)
-    assert found.synchronisation[0] >= best.worst_sync * (1 - 1e-9)
+    assert found.synchronization[0] == pytest.approx(best.worst_sync, rel=1e-3)
+    assert found.synchronization[0] >= best.worst_sync * (1 - 1e-9)
 
 
 def test_interior_points_of_ipopt_find_the_same_optimum(best):

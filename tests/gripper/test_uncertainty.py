@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.signal import lfilter
 
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.plant import PRINTED, FingerDynamics
@@ -14,7 +13,6 @@ from softgrip.gripper.uncertainty import (
     deviation,
     excited_band,
     finger_response,
-    measured_response,
     parameter_bounds,
 )
 
@@ -65,15 +63,6 @@ def test_weight_finds_a_lag_lead_again(low, rise, corner):
     assert np.abs(found(1j * W)).ravel() == pytest.approx(bound, rel=1e-2)
 
 
-def test_measured_response_is_that_of_the_filter():
-    command = np.zeros(512)
-    command[10:30] = np.random.default_rng(0).normal(size=20)
-    angle = lfilter([0.3, 0.1], [1, -0.5], command)
-    w, found = measured_response(command, angle, 0.1)
-    z = np.exp(-1j * w * 0.1)
-    assert found == pytest.approx((0.3 + 0.1 * z) / (1 - 0.5 * z), rel=1e-6)
-
-
 def test_excited_band_of_two_tones():
     t = 0.01 * np.arange(2000)
     command = np.sin(6 * np.pi * t) + 0.5 * np.sin(20 * np.pi * t) + 0.1 * np.sin(60 * np.pi * t)
@@ -95,5 +84,3 @@ def test_parameter_bounds_are_about_the_mean():
 def test_impossible_input_is_refused():
     with pytest.raises(InvalidInputError, match="bound"):
         bounding_weight(W, np.zeros_like(W))
-    with pytest.raises(InvalidInputError, match="shape"):
-        measured_response(np.zeros(5), np.zeros(6), 0.1)

@@ -30,7 +30,7 @@ def test_no_loop_is_below_the_least_difference_of_the_nominal_pair():
     when = loop.settling[0].max()
     best = shown.trade_off(PRINTED, shown.TARGET, limit=5.0, latest=2.2)
     bound = next(b.worst_sync for b in best if b.settling >= when)
-    assert loop.synchronisation[0] > bound
+    assert loop.synchronization[0] > bound
 
 
 def test_table_of_least_times_falls_with_band_and_limit():
