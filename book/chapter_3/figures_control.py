@@ -11,16 +11,7 @@ from book.chapter_3.regulators import FILE as GAINS
 from book.chapter_3.regulators import designed_on
 from book.chapter_4.identified_model import identified_model
 from book.companion.exhibit import figure
-from book.companion.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    LINEAR,
-    MEASURED,
-    PRINTED,
-    VERMILION,
-    WIDTH,
-)
+from book.companion.style import BLUE, GREEN, GREY, LINEAR, MEASURED, PRINTED, VERMILION, WIDTH
 from softgrip.control.limited_lqr import best_within_limit, limited_loop
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import FINGER, Weights, lqr_gain, step_response

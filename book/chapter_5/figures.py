@@ -9,31 +9,13 @@ from matplotlib.ticker import MultipleLocator
 from scipy.stats import spearmanr
 
 from book.companion.exhibit import figure
-from book.companion.style import (
-    GREY,
-    LUDWICK,
-    MEASURED,
-    OTHER,
-    PRINTED,
-    VERMILION,
-    WIDTH,
-)
+from book.companion.style import GREY, LUDWICK, MEASURED, OTHER, PRINTED, VERMILION, WIDTH
 from softgrip.arrays import Floats
 from softgrip.materials import ludwick, tensile, yeoh
 from softgrip.materials.facts import facts
-from softgrip.materials.fitting import (
-    LONGEST_STRAINS,
-    Fitting,
-    kept,
-)
+from softgrip.materials.fitting import LONGEST_STRAINS, Fitting, kept
 from softgrip.materials.leave_out import RIVALS, leave_k_out
-from softgrip.materials.table import (
-    HELD_OUT,
-    Material,
-    fractional_powers,
-    properties,
-    table_5_1,
-)
+from softgrip.materials.table import HELD_OUT, Material, fractional_powers, properties, table_5_1
 from softgrip.provenance import Provenance
 from softgrip.units import MPa
 

@@ -3,17 +3,10 @@
 from matplotlib.figure import Figure
 
 from book.chapter_5.figures import draw_curves
-from book.companion.style import (
-    LUDWICK,
-    MEASURED,
-    still,
-    style,
-)
+from book.companion.style import LUDWICK, MEASURED, still, style
 from softgrip.materials.facts import facts
 from softgrip.materials.powerlaw import predict_power
-from softgrip.materials.table import (
-    table_5_1,
-)
+from softgrip.materials.table import table_5_1
 from softgrip.units import MPa
 
 

@@ -10,16 +10,9 @@ from book.companion.exhibit import table
 from book.companion.verdict import ledger, verdict_of
 from softgrip.materials import tensile
 from softgrip.materials.facts import facts
-from softgrip.materials.fitting import (
-    Fitting,
-    bootstrap_interval,
-    fractional_power,
-    ranking,
-)
+from softgrip.materials.fitting import Fitting, bootstrap_interval, fractional_power, ranking
 from softgrip.materials.leave_out import RIVALS, leave_k_out
-from softgrip.materials.table import (
-    table_5_1,
-)
+from softgrip.materials.table import table_5_1
 from softgrip.provenance import Provenance
 from softgrip.units import MPa
 

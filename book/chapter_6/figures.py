@@ -6,16 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from book.companion.exhibit import figure
-from book.companion.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PRINTED,
-    PURPLE,
-    VERMILION,
-    WIDTH,
-)
+from book.companion.style import BLUE, GREEN, GREY, ORANGE, PRINTED, PURPLE, VERMILION, WIDTH
 from softgrip.gripper.internal_model import controller_matrices
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.loop_shaping import fit_roll_off

@@ -11,17 +11,7 @@ from book.chapter_6 import speed as gripper_speed
 from book.chapter_6.logs import names_of
 from book.chapter_6.results import BAND_SHARE
 from book.companion.exhibit import figure
-from book.companion.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PRINTED,
-    SKY,
-    VERMILION,
-    WIDTH,
-    YELLOW,
-)
+from book.companion.style import BLUE, GREEN, GREY, ORANGE, PRINTED, SKY, VERMILION, WIDTH, YELLOW
 from softgrip.arrays import Floats
 from softgrip.control.step_metrics import final_value
 from softgrip.errors import InvalidInputError

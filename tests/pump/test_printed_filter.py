@@ -5,10 +5,7 @@ import numpy as np
 import pytest
 
 from softgrip.errors import InvalidInputError
-from softgrip.pump.observability import (
-    observability_matrix,
-    observable_rank,
-)
+from softgrip.pump.observability import observability_matrix, observable_rank
 from softgrip.pump.printed_filter import open_loop_capacity, printed_filter, run_printed
 
 from .gaussian import JointGaussian
