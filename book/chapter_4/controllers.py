@@ -2,12 +2,17 @@
 
 from typing import Literal, get_args
 
+import numpy as np
+
 from book.chapter_4.identified_model import identified_model
 from book.chapter_4.pid_gains import pid_gains
-from softgrip.control.loop import SPEED_LIMIT, Controller
-from softgrip.control.pid import PID
+from softgrip.control.designs import STEP, linear_loop
+from softgrip.control.loop import SPEED_LIMIT, Controller, LoopResult
+from softgrip.control.pid import PID, Gains
 from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed, PressureByPlunger
+from softgrip.dynamics.second_order import full_state_space, state_space
 from softgrip.errors import InvalidInputError
+from softgrip.logs.steps import StepFigures, step_figures
 
 Name = Literal["actuator", "actuator by plunger", "full"]
 """The (4.14) design under its two readings of `control.pressure_command`, and the (4.15) one."""
@@ -36,3 +41,22 @@ def controller(name: Name, stage: str = "tuned") -> Controller:
     if name == "actuator":
         return PressureAsSpeed(pid)
     return PressureByPlunger(pid, identified_model().pump_gain)
+
+
+def own_loop(design: str, gains: Gains | None = None, *, duration: float = 8.0) -> LoopResult:
+    """Run a PID, with its tuned gains if none are given, on the linear model it was designed on.
+
+    ``design`` is "actuator" or "full"; the model is identified from logs of the simulated rig.
+    """
+    model = identified_model()
+    if design == "actuator":
+        system, limit = state_space(model.finger), SET_PRESSURE
+    else:
+        system, limit = full_state_space(model.finger, model.pump_gain), SPEED_LIMIT
+    return linear_loop(system, gains or pid_gains(design), limit, duration=duration)
+
+
+def own_step(design: str) -> StepFigures:
+    """Judge the step of `own_loop`, as the step of a log is judged."""
+    found = own_loop(design, duration=20.0)
+    return step_figures(found.time, np.ravel(found.measured), STEP, window=0)

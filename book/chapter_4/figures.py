@@ -6,8 +6,14 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from book.chapter_4.controllers import own_loop
+from book.chapter_4.identified_model import identified_model
+from book.chapter_4.pid_gains import FILE as GAINS
 from book.companion.exhibit import figure
-from book.companion.style import LINEAR, LUDWICK, MEASURED, OTHER, VERMILION, WIDTH
+from book.companion.style import GREY, LINEAR, LUDWICK, MEASURED, OTHER, PRINTED, VERMILION, WIDTH
+from softgrip.control.loop import SPEED_LIMIT
+from softgrip.control.minimum_time import farthest
+from softgrip.dynamics.second_order import full_state_space
 from softgrip.logs.gaps import intervals
 from softgrip.logs.pump import pump_of
 from softgrip.logs.pushes import compare, prior, reference_noise
@@ -18,19 +24,15 @@ from softgrip.pump.elastance import ElastanceModel
 from softgrip.pump.flow import PARAMETER_SETS
 from softgrip.pump.gas import ATMOSPHERE, capacity
 from softgrip.pump.pressure import pressure
-from softgrip.pump.printed_filter import printed_filter, run_printed
-from softgrip.units import ML, MPa
+from softgrip.pump.printed_filter import open_loop_capacity, printed_filter, run_printed
+from softgrip.units import DEG, ML, MPa
 
 GAS_VOLUME = 90 * ML
 """Air of a full 60 mL syringe and a finger with its tube, about 30 mL; it is not printed."""
 PUSHES = ("push-a", "push-b", "push-c", "push-d")
-PANELS = (
-    "(a) default",
-    "(b) larger syringe",
-    "(c) smaller lead",
-    "(d) higher speed",
-)
+PANELS = ("(a) default", "(b) larger syringe", "(c) smaller lead", "(d) higher speed")
 HOLD = "simulated/step-60-1.csv"
+STEPS = ("pid-actuator", "pid-full")
 
 
 @figure(
@@ -53,13 +55,12 @@ def figure_4_3() -> Figure:
     for axes, letter, name, word in zip(
         drawn.subplots(3, 1, sharex=True), "abc", names, words, strict=True
     ):
-        default, changed = PARAMETER_SETS["default"], PARAMETER_SETS[name]
-        axes.plot(
-            time, pressure(time, default.flow, constant) / MPa, color=LUDWICK, label="default"
-        )
-        axes.plot(
-            time, pressure(time, changed.flow, constant) / MPa, color=LINEAR, ls="--", label=word
-        )
+        for label, run, look in (
+            ("default", "default", {"color": LUDWICK}),
+            (word, name, {"color": LINEAR, "ls": "--"}),
+        ):
+            rise = pressure(time, PARAMETER_SETS[run].flow, constant)
+            axes.plot(time, rise / MPa, label=label, **look)
         axes.set(title=f"({letter}) {name}", ylabel="pressure (MPa)")
         axes.legend(loc="upper left")
     axes.set_xlabel("time (s)")
@@ -88,8 +89,12 @@ def figure_4_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     names = PANELS if not logs else tuple(Path(path).stem for path in paths)
     for axes, path, name in zip(panels, paths, names, strict=False):
         _draw_push(axes, path, name)
-    handles, labels = panels[0].get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside upper center", ncols=4, columnspacing=0.9)
+    drawn.legend(
+        *panels[0].get_legend_handles_labels(),
+        loc="outside upper center",
+        ncols=4,
+        columnspacing=0.9,
+    )
     return drawn
 
 
@@ -126,7 +131,7 @@ def figure_4_a() -> Figure:
     push, hold = compare(kept_log("push-a")), data_folder() / HOLD
     angle = read_log(kept_log("push-a"))["angle"]
     seen = push.estimated.capacity
-    turned = np.cumsum(angle) - angle
+    turned = open_loop_capacity(angle, 1.0, 0.0)
     gain = float(turned @ (seen - push.capacity) / (turned @ turned))
     first, second = drawn.subplots(1, 2, sharey=True)
     _draw_capacity(first, push.time, angle, seen, push.estimated.capacity_std, gain)
@@ -159,3 +164,84 @@ def _draw_capacity(axes: Any, time: Any, angle: Any, seen: Any, std: Any, gain: 
     axes.fill_between(
         time, (seen - 2 * std) / unit, (seen + 2 * std) / unit, color=LUDWICK, alpha=0.2, lw=0
     )
+
+
+@figure(
+    "4.5",
+    caption="A step to 60 deg with two PID controllers, tuned alike on different models: (a) on "
+    "the finger alone, Eq. (4.14); (b) with the pump, Eq. (4.15). Each on its own linear model, "
+    "and on a rig (those of the book on the *simulated* one). The text does not say how large its "
+    "step was.",
+    alt="Two panels of angle over time. On its own model controller (a) is at 60 degrees in half a "
+    "second, on the simulated rig it swings for ten seconds. Controller (b) rises in about two "
+    "seconds on both and stays near 60 degrees.",
+    provenance=Provenance.SIMULATED,
+    data=(*(f"simulated/{name}.csv" for name in STEPS), GAINS),
+)
+def figure_4_5(logs: tuple[Path | str, ...] = ()) -> Figure:
+    """Draw both controllers on their models and on a rig; ``logs`` gives two of another rig."""
+    drawn = Figure(figsize=(WIDTH, 5.2))
+    panels = drawn.subplots(2, 1, sharex=True, sharey=True)
+    paths = logs or tuple(kept_log(name) for name in STEPS)
+    titles = ("(a) designed on the finger alone", "(b) designed on finger and pump")
+    for axes, path, design, title in zip(panels, paths, ("actuator", "full"), titles, strict=True):
+        _draw_log(axes, path, lw=1)
+        found = own_loop(design)
+        axes.plot(
+            found.time, np.ravel(found.measured) / DEG, color=LUDWICK, ls="--", label="own model"
+        )
+        axes.set(title=title, ylabel="angle (deg)", xlim=(0, 15), ylim=(-5, 110))
+    axes.set_xlabel("time (s)")
+    drawn.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    return drawn
+
+
+def _draw_log(axes: Any, path: Path | str, *, lw: float | None) -> None:
+    """Draw reference and angle of a log, the reference in a line of this width."""
+    log = read_log(path)
+    axes.plot(log["time"], log["reference"] / DEG, color=PRINTED, lw=lw, label="reference")
+    label = str(log.header.provenance)
+    axes.plot(log["time"], log["angle"] / DEG, color=MEASURED, lw=1, label=label)
+
+
+@figure(
+    "4.7",
+    caption="A staircase of 10 deg steps, held for 1.2 s each, with the controller of Figure 4.5 "
+    "(b) on a rig (that of the book is the *simulated* one).",
+    alt="The reference climbs to 60 degrees in steps and comes down again; the angle follows it as "
+    "a smooth hill, about a second late.",
+    provenance=Provenance.SIMULATED,
+    data=("simulated/staircase.csv", GAINS),
+)
+def figure_4_7(logs: tuple[Path | str, ...] = ()) -> Figure:
+    """Draw the staircase; ``logs`` gives one of another rig."""
+    drawn = Figure(figsize=(WIDTH, 3.2))
+    axes = drawn.subplots()
+    _draw_log(axes, (logs or (kept_log("staircase"),))[0], lw=None)
+    axes.set(xlabel="time (s)", ylabel="angle (deg)")
+    axes.legend(loc="upper right")
+    return drawn
+
+
+@figure(
+    "4.C",
+    caption="How far the finger can be moved in a given time by *any* controller within 5 rev/s, "
+    "on the linear model of finger and pump that is identified from the simulated rig's logs. "
+    "Dotted: the RMS error of the flex sensor, and the 0.2 s that the text gives for a commanded "
+    "change.",
+    alt="A curve that leaves the origin flat and then climbs; at 0.2 seconds it is still below the "
+    "two degrees of the sensor's error.",
+    provenance=Provenance.SIMULATED,
+    data=("simulated/push-a.csv",),
+)
+def figure_4_c() -> Figure:
+    """Draw the farthest angle that can be reached over time."""
+    drawn = Figure(figsize=(WIDTH, 3.0))
+    axes = drawn.subplots()
+    time, model = np.linspace(0, 0.6, 25), identified_model()
+    reached = farthest(full_state_space(model.finger, model.pump_gain), SPEED_LIMIT, time)
+    axes.plot(time, reached / DEG, color=LUDWICK)
+    axes.axvline(0.2, color=GREY, ls=":")
+    axes.axhline(2, color=VERMILION, ls=":")
+    axes.set(xlabel="time (s)", ylabel="farthest (deg)", xlim=(0, 0.6), ylim=(0, None))
+    return drawn

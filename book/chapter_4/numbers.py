@@ -2,18 +2,11 @@
 
 from itertools import product
 
-import numpy as np
-
-from book.chapter_4.identified_model import identified_model
-from book.chapter_4.pid_gains import pid_gains
+from book.chapter_4.controllers import own_step
 from book.companion.verdict import simulated
-from softgrip.control.designs import STEP, linear_loop
-from softgrip.control.loop import SPEED_LIMIT
-from softgrip.control.pressure_command import SET_PRESSURE
-from softgrip.dynamics.second_order import full_state_space, state_space
 from softgrip.logs.pushes import compare
 from softgrip.logs.staircase import staircase_figures
-from softgrip.logs.steps import StepFigures, step_figures, step_log_figures
+from softgrip.logs.steps import StepFigures, step_log_figures
 from softgrip.provenance import data_folder
 from softgrip.pump.flow import TABLE_4_1, Pump, PumpRun, parameter_set
 from softgrip.pump.gas import ATMOSPHERE, capacity_growth
@@ -25,27 +18,16 @@ SETTLING = {"simulated": (5.0, 2.5), "measured": (3.95, 2.38)}
 
 def fastest(name: str) -> float:
     """Return a parameter of the set of Table 4.1 with the largest pressure rate, Eq. (4.5)."""
-    runs = [
-        PumpRun(Pump(area, lead), speed)
-        for area, lead, speed in product(
-            TABLE_4_1["area"], TABLE_4_1["lead"], TABLE_4_1["motor_speed"]
-        )
-    ]
-    best = max(runs, key=lambda run: run.flow)
-    found = {
-        "area": best.pump.area,
-        "lead": best.pump.lead,
-        "motor_speed": best.motor_speed / REV,
-    }
-    return found[name]
+    sets = product(*TABLE_4_1.values())
+    best = max(sets, key=lambda values: PumpRun(Pump(*values[:2]), values[2]).flow)
+    found = dict(zip(TABLE_4_1, best, strict=True))
+    return found[name] / (REV if name == "motor_speed" else 1)
 
 
 def rate_ratio() -> float:
     """Divide the rate with small lead and large area by that with large lead and small area."""
-    areas, leads = TABLE_4_1["area"], TABLE_4_1["lead"]
-    speed = TABLE_4_1["motor_speed"][0]
-    first = PumpRun(Pump(areas[1], leads[1]), speed).flow
-    return first / PumpRun(Pump(areas[0], leads[0]), speed).flow
+    (small, large), (long, short), (speed, _) = TABLE_4_1.values()
+    return PumpRun(Pump(large, short), speed).flow / PumpRun(Pump(small, long), speed).flow
 
 
 def lead_time_ratio() -> float:
@@ -80,15 +62,7 @@ def settling_on_model(design: str, criterion: str = "settled_5_percent") -> floa
 
     ``design`` is "actuator" or "full"; the model is identified from logs of the simulated rig.
     """
-    model = identified_model()
-    gains = pid_gains(design)
-    if design == "actuator":
-        system, limit = state_space(model.finger), SET_PRESSURE
-    else:
-        system, limit = full_state_space(model.finger, model.pump_gain), SPEED_LIMIT
-    found = linear_loop(system, gains, limit, duration=20.0)
-    figures = step_figures(found.time, np.ravel(found.measured), STEP, window=0)
-    return float(getattr(figures, criterion))
+    return float(getattr(own_step(design), criterion))
 
 
 def _step_log(design: str) -> StepFigures:

@@ -4,8 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
-from book.chapter_4.figures_control import loop
-from book.chapter_4.identified_model import identified_model
+from book.chapter_4.controllers import own_loop
 from book.chapter_4.pid_gains import pid_gains
 from book.companion.style import GREY, LINEAR, LUDWICK, MEASURED, PRINTED, VERMILION, still, style
 from softgrip.control.designs import STEP
@@ -121,7 +120,7 @@ def draw_pid(kp: float, ki: float, kd: float) -> Figure:
     """
     tuned = pid_gains("full")
     gains = Gains(kp * tuned.kp, ki * tuned.ki, kd * tuned.kd, tuned.derivative_filter)
-    found = loop("full", gains, identified_model())
+    found = own_loop("full", gains)
     angle = np.ravel(found.measured)
     settled = float(settling_time(found.time, angle, final=STEP, band=0.05))
     with style():

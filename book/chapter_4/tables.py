@@ -6,13 +6,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from book.chapter_4.figures_control import GAINS, loop
-from book.chapter_4.identified_model import identified_model
-from book.chapter_4.pid_gains import pid_gains
+from book.chapter_4.controllers import own_step
+from book.chapter_4.pid_gains import FILE as GAINS
 from book.companion.exhibit import table
-from softgrip.control.designs import STEP
 from softgrip.logs.reader import kept_log, read_log
-from softgrip.logs.steps import step_figures, step_log_figures
+from softgrip.logs.steps import step_log_figures
 from softgrip.provenance import Provenance
 from softgrip.pump.finger import Finger
 from softgrip.pump.flow import TABLE_4_1, Pump, flow
@@ -131,16 +129,12 @@ def table_4_b() -> pd.DataFrame:
 )
 def table_4_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
     """Tabulate settling times of both controllers under each criterion; ``logs`` gives two."""
-    model = identified_model()
     paths = logs or (kept_log("pid-actuator"), kept_log("pid-full"))
     rows = []
-    designs = ("actuator", "full")
-    names = ("finger alone (4.14)", "finger and pump (4.15)")
-    for design, words, path in zip(designs, names, paths, strict=True):
-        found = loop(design, pid_gains(design), model, duration=20.0)
-        own = step_figures(found.time, np.ravel(found.measured), STEP, window=0)
+    names = {"actuator": "finger alone (4.14)", "full": "finger and pump (4.15)"}
+    for (design, words), path in zip(names.items(), paths, strict=True):
         rig = f"{read_log(path).header.provenance} rig"
-        for place, figures in (("own model", own), (rig, step_log_figures(path))):
+        for place, figures in (("own model", own_step(design)), (rig, step_log_figures(path))):
             rows.append(
                 {
                     "designed on": words,
