@@ -118,8 +118,9 @@ def read_claims(chapter: int | None = None) -> list[Claim]:
         path = data_file(f"claims/{name}").path
         with path.open("rb") as stream:
             rows = tomllib.load(stream)["claim"]
+        number = int(path.stem.removeprefix("chapter_"))
         for cell in (cell for row in rows for cell in _expand(row)):
-            claim = _claim(cell, path)
+            claim = _claim({**cell, "chapter": number}, path)
             if claim.id in found:
                 raise DataFileError(path, expected="ids that differ", got=f"{claim.id} twice")
             found[claim.id] = claim

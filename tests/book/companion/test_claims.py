@@ -17,7 +17,7 @@ def write(tmp_path, monkeypatch):
     return lambda text: (tmp_path / "claims/chapter_5.toml").write_text(HEAD + text)
 
 
-BASE = 'chapter = 5\nwhere = "Table 5.1"\nunit = "1"\nbasis = "citation"\n'
+BASE = 'where = "Table 5.1"\nunit = "1"\nbasis = "citation"\n'
 
 
 def test_a_table_of_cells_becomes_one_claim_a_cell(write):
@@ -33,6 +33,7 @@ def test_a_table_of_cells_becomes_one_claim_a_cell(write):
         "2.174",
     )
     assert first.arguments == {"material": "Mold Star 20T"}
+    assert first.chapter == 5  # the file's own
     assert second.id == "n-ecoflex-00-10"
 
 
