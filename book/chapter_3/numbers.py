@@ -1,12 +1,12 @@
 """Recomputation of the numbers printed in Chapter 3."""
 
-from functools import cache
 from math import pi
 
 import numpy as np
 from scipy.optimize import brentq
 
-from book.chapter_3.stepped import identified_step, rig_with
+from book.chapter_3.stepped import identified_row
+from book.chapter_3.torque_and_bending import LENGTH
 from book.chapter_4.identified_model import identified_model
 from book.companion.verdict import simulated
 from softgrip.actuator.bending import Finger, free_bending
@@ -18,7 +18,6 @@ from softgrip.actuator.section import Section, chamber_area, torque
 from softgrip.control.lqr import FINGER, Weights, linear_settling_time
 from softgrip.control.lqr import step_response as lqr_response
 from softgrip.control.step_metrics import settling_time
-from softgrip.dynamics.identify import Identified
 from softgrip.dynamics.second_order import SecondOrder, step_response
 from softgrip.logs.steps import step_log_figures
 from softgrip.materials.table import material
@@ -26,7 +25,6 @@ from softgrip.provenance import data_file
 from softgrip.units import DEG, MM, MPa
 
 TORQUE_SCALE, ANGLE_SCALE = 0.4, 1.4 * pi
-LENGTH = 94 * MM
 G = 9.80665
 DENSITY = {"Design 1(E1)": 1080.0, "Design 2(E1)": 1080.0, "Design 3(E2)": 1060.0}
 """Of the cured rubber, kg/m^3, from the supplier's data sheets (the dissertation has none)."""
@@ -103,13 +101,7 @@ def banded_optimum(
 @simulated
 def stepped_frequency(row: str) -> float:
     """Return what second-order identification says of simulated steps to 60 deg, rad/s."""
-    return stepped(int(row)).natural_frequency.value
-
-
-@cache
-def stepped(row: int) -> Identified:
-    """Identify simulated steps to 60 deg of the section of a row of Table 3.2, 1 to 4."""
-    return identified_step(rig_with(table_3_2()[row - 1].section))
+    return identified_row(int(row)).natural_frequency.value
 
 
 def modulus(design: str) -> float:
@@ -197,11 +189,6 @@ def frequency_at(top: float, bottom: float, power: float, mass: float = FREQUENC
     best = section("Opt. parameters")
     changed = Section(top * MM, bottom * MM, best.width, best.wall)
     return float(natural_frequency(Finger(changed, fractional_power=power), mass))
-
-
-def largest_height(top: float, bottom: float) -> float:
-    """Return a + b, mm."""
-    return top + bottom
 
 
 @simulated

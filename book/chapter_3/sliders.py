@@ -1,5 +1,6 @@
 """What the sliders of Chapter 3 draw."""
 
+from functools import lru_cache
 from textwrap import wrap
 
 import matplotlib as mpl
@@ -7,13 +8,19 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from book.chapter_3.finger_drawing import draw_section
-from book.companion.style import BLUE, ORANGE, WIDTH, style
+from book.chapter_3.regulators import designed_on
+from book.chapter_4.identified_model import IdentifiedModel, identified_model
+from book.companion.style import BLUE, GREY, LINEAR, ORANGE, PRINTED, WIDTH, still, style
 from softgrip.actuator.bending import Finger, free_bending
 from softgrip.actuator.design import DesignProblem, FrequencyBand, InfeasibleDesignError
 from softgrip.actuator.frequency import natural_frequency
 from softgrip.actuator.optimize import optimal_design
 from softgrip.actuator.printed import ANGLE_POWER, FREQUENCY_MASS, FREQUENCY_POWER
 from softgrip.actuator.section import Section, torque
+from softgrip.control.limited_lqr import limited_loop
+from softgrip.control.loop import SPEED_LIMIT
+from softgrip.control.lqr import Weights, lqr_gain
+from softgrip.control.step_metrics import settling_time
 from softgrip.units import DEG, MM, MPa
 
 
@@ -92,4 +99,43 @@ def _refused(message: str) -> Figure:
         drawn = Figure(figsize=(WIDTH, 3.2))
         text = "\n".join(wrap(message.replace("; ", ";\n"), 58, replace_whitespace=False))
         drawn.text(0.04, 0.5, text, va="center", fontsize=9.5)
+    return drawn
+
+
+DURATION = 4.0
+
+
+@lru_cache(maxsize=1)
+def _model() -> IdentifiedModel:
+    # To identify it takes as long as all else that a frame may take.
+    return identified_model()
+
+
+def draw_lqr(p: float, q2: float, step: float) -> Figure:
+    """Draw a step of the regulator on the printed model, with the motor's limit.
+
+    Parameters
+    ----------
+    p, q2
+        Of Eq. (3.29); q_1 = 1, q_3 = 0 and R = 1.
+    step
+        deg.
+    """
+    model = _model()
+    finger, _ = designed_on("printed", model)
+    gain = lqr_gain(finger, Weights(p=p, q=(1.0, q2, 0.0)))
+    found = limited_loop(finger, model.pump_gain, gain, step * DEG, duration=DURATION)
+    settled = float(settling_time(found.time, found.measured, final=step * DEG, band=0.05))
+    share = found.command / SPEED_LIMIT
+    with style():
+        drawn, axes = still(3.0)
+        axes.axhspan(0.95, 1.05, color=PRINTED, alpha=0.2, lw=0)
+        axes.plot(found.time, found.measured / (step * DEG), color=LINEAR, label="angle / step")
+        axes.step(found.time, share, color=GREY, ls="--", lw=1, where="post", label="command u")
+        axes.axvline(0.8, color=PRINTED, ls=":", lw=1)
+        within = settled < DURATION
+        words = f"within 5 % after {settled:.2f} s" if within else "not within 5 % in 4 s"
+        axes.set(xlabel="time (s)", ylabel="share", xlim=(0, DURATION), ylim=(-1.1, 1.4))
+        axes.set_title(words)
+        axes.legend(loc="lower right")
     return drawn

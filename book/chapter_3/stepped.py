@@ -1,10 +1,12 @@
 """The simulated rig with a finger of another section, and the frequency that its steps tell."""
 
 from dataclasses import replace
+from functools import cache
 
 from softgrip.actuator.bending import modified_moment
 from softgrip.actuator.frequency import rubber_mass
 from softgrip.actuator.printed import section as printed_section
+from softgrip.actuator.printed import table_3_2
 from softgrip.actuator.section import Section, chamber_area, check_section, torque
 from softgrip.dynamics.identify import Identified, identify
 from softgrip.errors import InvalidInputError
@@ -62,3 +64,9 @@ def identified_step(rig: RigParameters, *, angle: float = OPERATING_ANGLE) -> Id
     """
     test = simulate_step_test(rig, travel_to(rig, angle), runs=RUNS, seed=SEED)
     return identify(test.time, test.pressure, test.angle, initial_input=0.0)
+
+
+@cache
+def identified_row(row: int) -> Identified:
+    """Identify simulated steps to 60 deg of the section of a row of Table 3.2, 1 to 4."""
+    return identified_step(rig_with(table_3_2()[row - 1].section))

@@ -3,7 +3,8 @@
 import pandas as pd
 
 from book.chapter_3.figures import TABLE_3_1, TABLE_3_2
-from book.chapter_3.numbers import estimated_frequency, rubber_weight, stepped
+from book.chapter_3.numbers import estimated_frequency, rubber_weight
+from book.chapter_3.stepped import identified_row
 from book.companion.exhibit import table
 from book.companion.verdict import verdict_of
 from softgrip.actuator import fem_results
@@ -73,10 +74,10 @@ def table_3_1_sums() -> pd.DataFrame:
 def table_3_2_recomputed() -> pd.DataFrame:
     """Tabulate the bands, their best sections and the frequencies of steps."""
     rows = []
-    first = stepped(1).natural_frequency.value
+    first = identified_row(1).natural_frequency.value
     for k, row in enumerate(table_3_2(), start=1):
         best = certified_design(row.problem()).design.section
-        steps = stepped(k)
+        steps = identified_row(k)
         frequency, (pole, _) = steps.natural_frequency, steps.system.rates
         value, margin = frequency.value, (frequency.high - frequency.low) / 2
         rows.append(

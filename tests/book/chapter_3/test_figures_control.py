@@ -3,8 +3,8 @@
 import pytest
 from matplotlib.figure import Figure
 
-from book.chapter_3.sliders_control import draw_lqr
-from book.chapter_3.tables_control import table_3_c, table_3_d
+from book.chapter_3.figures_control import table_3_c, table_3_d
+from book.chapter_3.sliders import draw_lqr
 
 
 @pytest.mark.parametrize("step", [10, 90])
