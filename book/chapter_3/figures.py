@@ -389,7 +389,7 @@ def figure_3_e() -> Figure:
     upper.set(xlabel="size of the elements (mm)", ylabel="part of the finest")
     upper.invert_xaxis()
     upper.legend(fontsize=8.5)
-    rows = read("groove_floor")
+    rows = list(read("groove_floor"))
     floors = [r.groove_floor / MM for r in rows]
     push = torque(OPTIMUM, 1.0)
     full = 206 * DEG / (0.15 * MPa)

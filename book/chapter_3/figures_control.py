@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from softgrip.simulator.finger import SimulatedRig
 
 from book.chapter_3.regulators import FILE as GAINS
 from book.chapter_3.regulators import designed_on, regulator
@@ -33,6 +32,7 @@ from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.closed_loop import run_on_rig
 from softgrip.simulator.closed_loop_log import STEP, STEP_DURATION
+from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG
 
 LOGS = ("lqr-printed", "lqr-fast")
@@ -208,7 +208,7 @@ def _linear(weights: Weights, bands: tuple[float, ...]) -> list[str]:
 
 
 def _runs(design: str) -> StepFigures:
-    rig = SimulatedRig(design_1(), runs=RUNS, seed=SEED)
+    rig = Simulation(design_1(), runs=RUNS, seed=SEED)
     loop = run_on_rig(rig, regulator(design), STEP, duration=STEP_DURATION)
     return step_figures(loop.result.time, loop.result.measured, STEP)
 
