@@ -147,15 +147,15 @@ class Equations(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         """Return the table."""
         lines = [".. list-table::", "   :class: equations", "   :header-rows: 1"]
-        lines += ["   :widths: 11 37 22 30", ""]
-        rows = [("Equation", "What it is", "Code", "Test")]
+        lines += ["   :widths: 13 37 22 28", ""]
+        rows = [("Equation", "What the code does", "Code", "Test")]
         for number, (owner, test) in pairs().items():
             if number.startswith(self.arguments[0]):
                 code = owner.full_name.removeprefix("softgrip.")
                 rows.append(
                     (
                         f":eq:`eq-{number.replace('.', '-')}`",
-                        _prose(owner.words.removeprefix("Return ")),
+                        _prose(owner.words),
                         f":py:obj:`{code} <{owner.full_name}>`",
                         f":py:obj:`{test.path}.py::{test.name} <{test.full_name}>`",
                     )
@@ -183,15 +183,13 @@ class EquationTests(SphinxDirective):
 def _prose(words: str) -> str:
     r"""Return a docstring's line as reStructuredText in which nothing but code is marked up.
 
-    >>> _prose("the ``|W|`` of `box`, x_1"), _prose("q of length one")
-    ('The ``|W|`` of ``box``, x\\_1', 'q of length one')
+    >>> _prose("Return the ``|W|`` of `box`, x_1.")
+    'Return the ``|W|`` of ``box``, x\\_1.'
     """
     parts = re.split(r"`+([^`]+)`+", words)
     parts[::2] = [re.sub(r"([*|_\\])", r"\\\1", part) for part in parts[::2]]
     parts[1::2] = [f"``{code}``" for code in parts[1::2]]
-    whole = "".join(parts)
-    symbol = whole[1:2] in (" ", ",")
-    return whole if symbol else whole[:1].upper() + whole[1:]
+    return "".join(parts)
 
 
 def _parsed(directive: SphinxDirective, lines: list[str]) -> list[nodes.Node]:
