@@ -88,14 +88,16 @@ def canonical_form(finger: SecondOrder, gain: float = 1.0) -> control.StateSpace
         The element of C, rad/s^3: see `input_gain`.
     """
     w, z = finger.natural_frequency, finger.damping_ratio
+    return integrating_finger(2 * z * w, w**2, gain)
+
+
+def integrating_finger(damping: float, stiffness: float, gain: float) -> control.StateSpace:
+    """Return ``gain / (s (s**2 + damping s + stiffness))``, an integrator before a finger.
+
+    The plant of Chapters 3 and 6: its states are angle, rate and acceleration over the gain.
+    """
     return control.ss(
-        [[0, 1, 0], [0, 0, 1], [0, -(w**2), -2 * z * w]],
-        [[0], [0], [1]],
-        [[gain, 0, 0]],
-        0,
-        inputs=["share"],
-        outputs=["angle"],
-        states=["angle/gain", "rate/gain", "acceleration/gain"],
+        [[0, 1, 0], [0, 0, 1], [0, -stiffness, -damping]], [[0], [0], [1]], [[gain, 0, 0]], 0
     )
 
 

@@ -7,6 +7,7 @@ import control
 import numpy as np
 
 from softgrip.arrays import Floats, check_positive
+from softgrip.control.lqr import integrating_finger
 from softgrip.errors import InvalidInputError
 
 
@@ -121,12 +122,7 @@ PRINTED = Gripper((FingerDynamics(2.66, 3.61, 7.831), FingerDynamics(2.45, 3.06,
 
 def finger_state_space(finger: FingerDynamics) -> control.StateSpace:
     """Return a finger with a pump, Eq. (6.15), in controllable form, from input to angle [rad]."""
-    return control.ss(
-        [[0, 1, 0], [0, 0, 1], [0, -finger.stiffness, -finger.damping]],
-        [[0], [0], [1]],
-        [[finger.gain, 0, 0]],
-        0,
-    )
+    return integrating_finger(finger.damping, finger.stiffness, finger.gain)
 
 
 def stacked_state_space(gripper: Gripper) -> control.StateSpace:

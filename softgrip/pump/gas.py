@@ -21,6 +21,8 @@ with the finger's volume alone; the gas that stays in the syringe, compressed wi
 then missed.
 """
 
+from typing import Any
+
 import numpy as np
 
 from softgrip.arrays import Value
@@ -118,6 +120,38 @@ def capacity_growth(
     return result
 
 
+def charge_pressure(charge: Any, volume: Value, compliance: float, rest_pressure: float) -> Value:
+    """Return the pressure of a charge of gas in a vessel that gives way, Eq. (4.3), unchecked.
+
+    It solves ``P (V + K (P - P_0)) = n R T`` for P.
+
+    Parameters
+    ----------
+    charge
+        n R T, J, > 0: constant for a closed gas at one temperature. Any shape.
+    volume
+        V at P_0, m^3, > 0, shape that broadcasts with `charge`.
+    compliance
+        K = dV_f/dP, m^3/Pa, >= 0; 0 for a rigid chamber.
+    rest_pressure
+        P_0, absolute, Pa.
+
+    Returns
+    -------
+    float or ndarray
+        Absolute pressure, Pa.
+
+    Examples
+    --------
+    >>> charge_pressure(10.0, 1e-4, 0.0, ATMOSPHERE)
+    100000.0
+    """
+    b = volume - compliance * rest_pressure
+    # The root of K P^2 + b P = n R T in the form that a rigid chamber, K = 0, can use too.
+    result: Value = 2 * charge / (b + (b * b + 4 * compliance * charge) ** 0.5)
+    return result
+
+
 def closed_volume_pressure(
     swept_volume: Value,
     gas_volume: float,
@@ -164,8 +198,5 @@ def closed_volume_pressure(
             expected=f"numbers below the gas volume {gas_volume:g}",
             got=swept_volume,
         )
-    charge = start_pressure * gas_volume
-    b = gas_volume - swept_volume - compliance * start_pressure
-    # The root of K P^2 + b P = charge in the form that a rigid chamber, K = 0, can use too.
-    result: Value = 2 * charge / (b + (b**2 + 4 * compliance * charge) ** 0.5)
-    return result
+    volume: Value = gas_volume - swept_volume
+    return charge_pressure(start_pressure * gas_volume, volume, compliance, start_pressure)

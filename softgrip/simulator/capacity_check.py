@@ -12,6 +12,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from softgrip.arrays import Floats
+from softgrip.pump.gas import ATMOSPHERE
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import REV, MPa
@@ -20,7 +21,7 @@ LOW, HIGH = 0.05 * MPa, 0.10 * MPa
 """Gauge pressures, Pa: the constant model is fitted below the first."""
 
 
-def least_air_swept(gauge: float, excess: float, atmosphere: float = 101325.0) -> float:
+def least_air_swept(gauge: float, excess: float, atmosphere: float = ATMOSPHERE) -> float:
     """Return the least share of the starting volume to be swept for a model to lie above the truth.
 
     Parameters

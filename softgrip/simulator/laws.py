@@ -5,6 +5,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from softgrip.arrays import Floats
+from softgrip.pump.gas import charge_pressure
 from softgrip.simulator.chance import Chance
 from softgrip.simulator.parameters import FingerParameters, RigParameters
 
@@ -17,42 +18,6 @@ AMOUNT, SENSED_PRESSURE, FINGERS = range(3)
 ANGLE, RATE, SENSED_ANGLE, MEMORY = range(4)
 """What the fingers' rows hold, of all fingers each: rad, rad/s, rad, then N m for each branch of
 memory."""
-
-GAS_CONSTANT = 8.314462618
-"""J/(mol K)."""
-
-
-def absolute_pressure(
-    amount: Value, free_volume: Value, ballooning: float, atmosphere: float
-) -> Value:
-    """Return the pressure of an ideal gas in a vessel that balloons.
-
-    It solves ``P (V + b (P - P_atm)) = n R T`` for P.
-
-    Parameters
-    ----------
-    amount
-        n R T, J, > 0: constant for a closed gas at one temperature.
-    free_volume
-        V, m^3, > 0: all volume but that due to ballooning.
-    ballooning
-        b, m^3/Pa, >= 0.
-    atmosphere
-        P_atm, Pa.
-
-    Returns
-    -------
-    float or ndarray
-        Pa, absolute.
-
-    Examples
-    --------
-    >>> absolute_pressure(10.0, 1e-4, 0.0, 101325.0)
-    100000.0
-    """
-    linear = free_volume - ballooning * atmosphere
-    # This form of the root stays exact as the ballooning goes to zero.
-    return 2 * amount / (linear + (linear * linear + 4 * ballooning * amount) ** 0.5)
 
 
 def leak(gauge: Value, leakage: Value, atmosphere: float) -> Value:
@@ -161,7 +126,7 @@ class Plant:
         volume += syringe_volume
         volume += self.rest
         atmosphere = self.parameters.gas.atmosphere
-        pressure: Floats = absolute_pressure(amount, volume, self.ballooning, atmosphere)
+        pressure: Floats = charge_pressure(amount, volume, self.ballooning, atmosphere)
         pressure -= atmosphere
         return pressure
 

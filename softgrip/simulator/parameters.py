@@ -4,6 +4,7 @@ from dataclasses import dataclass, field, fields
 from math import isfinite
 
 from softgrip.errors import InvalidInputError
+from softgrip.pump.gas import ATMOSPHERE
 from softgrip.units import DEG, ML, MM, PSI, REV
 
 
@@ -74,7 +75,7 @@ class GasParameters:
     """
 
     temperature: float = 293.15
-    atmosphere: float = 101325.0
+    atmosphere: float = ATMOSPHERE
     dead_volume: float = 2 * ML
     leakage: float = 7e-13
 

@@ -14,6 +14,7 @@ from softgrip.pump.gas import (
     GAS_CONSTANT,
     capacity,
     capacity_growth,
+    charge_pressure,
     closed_volume_pressure,
     gas_pressure,
 )
@@ -22,6 +23,12 @@ from softgrip.pump.parts import SYRINGES
 volumes = st.floats(1e-6, 1e-3)
 fractions = st.floats(-0.5, 0.9)
 compliances = st.floats(0, 1e-9)
+
+
+@given(amount=st.floats(1.0, 50.0), volume=st.floats(2e-5, 3e-4), ballooning=st.floats(0.0, 1e-10))
+def test_pressure_of_a_charge_solves_the_gas_law(amount, volume, ballooning):
+    p = charge_pressure(amount, volume, ballooning, ATMOSPHERE)
+    assert p * (volume + ballooning * (p - ATMOSPHERE)) == pytest.approx(amount, rel=1e-9)
 
 
 def test_molar_volume_at_standard_conditions():
