@@ -12,6 +12,7 @@ from book.chapter_3.regulators import FILE as GAINS
 from book.chapter_3.regulators import designed_on, regulator
 from book.chapter_4.identified_model import identified_model
 from book.companion.exhibit import figure, table
+from book.companion.simulated_logs import STEP, STEP_DURATION
 from book.companion.style import BLUE, GREEN, GREY, LINEAR, MEASURED, PRINTED, VERMILION, WIDTH
 from softgrip.control.limited_lqr import best_within_limit, limited_loop
 from softgrip.control.loop import SPEED_LIMIT
@@ -23,6 +24,7 @@ from softgrip.control.lqr_bound import (
     settling_floor,
 )
 from softgrip.control.minimum_time import largest_step, minimum_settling_time
+from softgrip.control.rig_controller import Tracking
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.second_order import full_state_space
 from softgrip.logs.reader import kept_log, read_log
@@ -30,8 +32,7 @@ from softgrip.logs.steps import StepFigures, step_figures, step_log_figures
 from softgrip.provenance import Provenance
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
-from softgrip.simulator.closed_loop import run_on_rig
-from softgrip.simulator.closed_loop_log import STEP, STEP_DURATION
+from softgrip.simulator.drive import drive
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG
 
@@ -209,8 +210,8 @@ def _linear(weights: Weights, bands: tuple[float, ...]) -> list[str]:
 
 def _runs(design: str) -> StepFigures:
     rig = Simulation(design_1(), runs=RUNS, seed=SEED)
-    loop = run_on_rig(rig, regulator(design), STEP, duration=STEP_DURATION)
-    return step_figures(loop.result.time, loop.result.measured, STEP)
+    made = drive(rig, Tracking(regulator(design), STEP), duration=STEP_DURATION)
+    return step_figures(made.time, made.measured.angle[:, 0].T, STEP)
 
 
 def _told(found: StepFigures) -> list[str]:

@@ -3,16 +3,14 @@
 from functools import partial
 
 from book.chapter_3.regulators import FILE, regulator
-from softgrip.simulator.closed_loop_log import ClosedLoopRecipe, write_closed_loop
+from book.companion.simulated_logs import tracked
 
-LOGS = {
-    f"lqr-{design}": partial(
-        write_closed_loop,
-        ClosedLoopRecipe(partial(regulator, design), f"lqr {design}", FILE, words),
-    )
+RECIPES = {
+    f"lqr-{design}": tracked(partial(regulator, design), f"lqr {design}", FILE, words)
     for design, words in (
         ("printed", "Figure 3.12: 60 deg, LQR with the weights of Eq. (3.29)"),
         ("fast", "Figure 3.12: 60 deg, LQR made faster"),
     )
 }
+LOGS = {name: recipe.write for name, recipe in RECIPES.items()}
 """What writes each log, by name, to a path, with the command that makes it."""

@@ -1,10 +1,7 @@
 """How the simulated logs of Chapter 5 are made: seven steps of two fingers to two angles each."""
 
-from functools import partial
-
+from book.companion.simulated_logs import Recipe
 from softgrip.simulator.calibration import design_1, design_3
-from softgrip.simulator.open_loop_log import OpenLoopRecipe, write_open_loop
-from softgrip.simulator.parameters import PumpParameters
 from softgrip.simulator.steps import step_commands
 from softgrip.units import MM
 
@@ -15,12 +12,11 @@ STEP_PLUNGER_FX = {60: 24.1 * MM, 90: 39.2 * MM}
 20, and of FX-Pro. They are `steps.travel_to`, to a tenth of a millimetre."""
 
 STEPS = {
-    f"{name}-{degrees}-{run + 1}": OpenLoopRecipe(
-        PumpParameters(),
-        run,
+    f"{name}-{degrees}-{run + 1}": Recipe(
         step_commands(plunger),
         f"open-loop step to about {degrees} deg{finger}",
-        design=design,
+        rig=design,
+        run=run,
     )
     for name, travels, design, finger in (
         ("step", STEP_PLUNGER, design_1, ""),
@@ -29,5 +25,5 @@ STEPS = {
     for degrees, plunger in travels.items()
     for run in range(RUNS)
 }
-LOGS = {name: partial(write_open_loop, recipe) for name, recipe in STEPS.items()}
+LOGS = {name: recipe.write for name, recipe in STEPS.items()}
 """What writes each log, by name, to a path, with the command that makes it."""

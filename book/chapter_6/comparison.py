@@ -15,13 +15,14 @@ from book.chapter_6.controllers import (
 )
 from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT
+from softgrip.control.rig_controller import RigController
 from softgrip.control.step_metrics import final_value, settling_time
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.gripper.robustness import tolerated_uncertainty
 from softgrip.gripper.synchronization import synchronization_error
 from softgrip.simulator.chance import SEED
+from softgrip.simulator.drive import Driven, drive
 from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION
-from softgrip.simulator.gripper_loop import DrivenGripper, GripperController, drive_gripper
 from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.simulation import Simulation
@@ -37,17 +38,17 @@ CRITERIA: dict[str, tuple[float, bool]] = {
 }
 """Half width of the band about the end of a response, and whether it is in rad."""
 
-ENTRIES: dict[str, Callable[[], GripperController]] = {
+ENTRIES: dict[str, Callable[[], RigController]] = {
     "open loop": lambda: gripper_controller("open loop"),
     "optimal feedforward": lambda: gripper_controller("optimal feedforward"),
     "LQR on the mean": lambda: gripper_controller("LQR"),
     "faster LQR": lambda: gripper_controller("LQR faster"),
     "H for 4.8/s": lambda: gripper_controller("H 4.8/s"),
-    "same, knows limit": lambda: gripper_controller("H 4.8/s", limit=SPEED_LIMIT),
-    "same, on (6.26)": lambda: gripper_controller("H 4.8/s", model=printed_model()),
+    "H for 4.8/s, knows limit": lambda: gripper_controller("H 4.8/s", limit=SPEED_LIMIT),
+    "H for 4.8/s, on (6.26)": lambda: gripper_controller("H 4.8/s", model=printed_model()),
     "H for 2/s": lambda: gripper_controller("H 2/s"),
-    "same, knows limit ": lambda: gripper_controller("H 2/s", limit=SPEED_LIMIT),
-    "same, on (6.26) ": lambda: gripper_controller("H 2/s", model=printed_model()),
+    "H for 2/s, knows limit": lambda: gripper_controller("H 2/s", limit=SPEED_LIMIT),
+    "H for 2/s, on (6.26)": lambda: gripper_controller("H 2/s", model=printed_model()),
 }
 """What makes each controller; all are cut at the motor's limit, whether they know it or not."""
 
@@ -77,7 +78,7 @@ class Judged:
     peak: Floats
 
 
-def judge(run: DrivenGripper, targets: Floats) -> Judged:
+def judge(run: Driven, targets: Floats) -> Judged:
     """Judge runs of a gripper whose fingers were to go to some angles, rad, shape (fingers,)."""
     angles = run.truth.angle.transpose(1, 2, 0)  # fingers, runs, samples
     ends = final_value(run.time, angles)
@@ -100,7 +101,7 @@ def robustness_margin(name: str) -> float | None:
 
     The motor's limit is left out: it is the margin of small motions about rest.
     """
-    feedback = feedback_of(ENTRIES[name]())
+    feedback = feedback_of(ENTRIES[name](), len(own_model().fingers))
     return None if feedback is None else tolerated_uncertainty(own_model(), feedback)
 
 
@@ -128,7 +129,7 @@ RIGS: dict[str, Callable[[], RigParameters]] = {
 def judged(name: str, rig: str = "as it is", *, runs: int = RUNS, seed: int = SEED) -> Judged:
     """Run and judge one of `ENTRIES` on one of `RIGS`, targets being those of its own model."""
     parameters = RIGS[rig]()
-    made = drive_gripper(
+    made = drive(
         Simulation(parameters, runs=runs, seed=seed, period=PERIOD),
         ENTRIES[name](),
         duration=OPEN_LOOP_DURATION,

@@ -10,7 +10,8 @@ import numpy as np
 from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import Weights, lqr_gain
-from softgrip.control.state_feedback import ObserverFeedback
+from softgrip.control.rig_controller import CommandSequence, RigController, Tracking
+from softgrip.control.state_feedback import SPEED_DIGITS, ObserverFeedback
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.gripper.internal_model import PERIOD, InternalModelController
 from softgrip.gripper.inversion import mean_inverse
@@ -21,7 +22,6 @@ from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
 from softgrip.logs.fingers import identified_gripper, read_runs
 from softgrip.provenance import data_file
 from softgrip.simulator.gripper_calibration import push_commands
-from softgrip.simulator.gripper_loop import CommandSequence, GripperController, OnTheMean
 from softgrip.simulator.gripper_parameters import LEFT, RIGHT, TRAVEL, printed_gripper
 from softgrip.units import DEG
 
@@ -66,7 +66,7 @@ def best_command(model: Gripper) -> OptimalFeedforward:
 
 def gripper_controller(
     name: Name, *, model: Gripper | None = None, limit: float = np.inf
-) -> GripperController:
+) -> RigController:
     """Return a controller that goes for the `target_angles` of its model.
 
     Parameters
@@ -82,7 +82,7 @@ def gripper_controller(
         return CommandSequence(push_commands(TRAVEL, printed_gripper().pump))
     known = own_model() if model is None else model
     if name == "optimal feedforward":
-        return CommandSequence(best_command(known).command)
+        return CommandSequence(np.round(best_command(known).command, SPEED_DIGITS))
     if name in FILTERS:
         return InternalModelController(
             known,
@@ -91,6 +91,7 @@ def gripper_controller(
             filter_state_space(*FILTERS[name]),
             period=PERIOD,
             limit=limit,
+            digits=SPEED_DIGITS,
         )
     mean = known.mean
     w = mean.natural_frequency
@@ -98,11 +99,18 @@ def gripper_controller(
     regulator = ObserverFeedback(
         lqr_gain(finger, WEIGHTS[name]), finger, mean.gain * SPEED_LIMIT, period=PERIOD
     )
-    return OnTheMean(regulator, target_angles(known))
+    return Tracking(regulator, target_angles(known).mean())
 
 
-def feedback_of(controller: GripperController) -> control.StateSpace | None:
+def feedback_of(controller: RigController, fingers: int) -> control.StateSpace | None:
     """Return a controller from the angles [rad] to the motor speed [rad/s], without its limit.
+
+    Parameters
+    ----------
+    controller
+        Which.
+    fingers
+        Number of angles.
 
     Returns
     -------
@@ -111,10 +119,10 @@ def feedback_of(controller: GripperController) -> control.StateSpace | None:
     """
     match controller:
         case InternalModelController():
-            whole, fingers = controller.matrices.linear(), controller.target.size
+            whole = controller.matrices.linear()
             return control.ss(whole.A, whole.B[:, :fingers], whole.C, whole.D[:, :fingers], PERIOD)
-        case OnTheMean(controller=ObserverFeedback() as regulator):
-            each = np.full((1, controller.fingers), 1 / controller.fingers)
+        case Tracking(controller=ObserverFeedback() as regulator):
+            each = np.full((1, fingers), 1 / fingers)
             of_mean = regulator.linear()
             return control.ss(of_mean.A, of_mean.B @ each, of_mean.C, of_mean.D @ each, PERIOD)
         case _:

@@ -8,11 +8,12 @@ import numpy as np
 
 from book.chapter_6.controllers import gripper_controller
 from softgrip.arrays import Floats
+from softgrip.control.rig_controller import CommandSequence, RigController
 from softgrip.gripper.grasp import DiscBetweenFingers, ElasticDisc
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.simulator.chance import SEED
+from softgrip.simulator.drive import drive
 from softgrip.simulator.gripper_calibration import push_commands
-from softgrip.simulator.gripper_loop import CommandSequence, GripperController, Held, drive_gripper
 from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import REV
@@ -24,7 +25,7 @@ SAMPLE = 0.02
 DURATION = 5.0
 STIFFNESS = {"soft": 50.0, "medium": 200.0, "stiff": 2000.0}
 """N/m (assumed; nothing is said of the banana, the mochi, the bottle and the toy)."""
-DRIVES: dict[str, Callable[[], GripperController]] = {
+DRIVES: dict[str, Callable[[], RigController]] = {
     "slow push": lambda: CommandSequence(_push(0.5 * REV)),
     "fast push": lambda: CommandSequence(_push(5 * REV)),
     "scheme, 2/s": lambda: gripper_controller("H 2/s"),
@@ -69,14 +70,14 @@ class Grasp:
 
 
 @cache
-def grasp(stiffness: float, drive: str, *, equal: bool = False, step: float = STEP) -> Grasp:
+def grasp(stiffness: float, by: str, *, equal: bool = False, step: float = STEP) -> Grasp:
     """Simulate a grasp by the median gripper.
 
     Parameters
     ----------
     stiffness
         Of the disc, N/m.
-    drive
+    by
         One of `DRIVES`.
     equal
         Whether both fingers are as the left one.
@@ -88,8 +89,7 @@ def grasp(stiffness: float, drive: str, *, equal: bool = False, step: float = ST
     if equal:
         gripper = replace(gripper, fingers=(gripper.fingers[0],) * 2)
     rig = Simulation(gripper, seed=SEED, contact=contact, step=step, period=SAMPLE)
-    controller = Held(DRIVES[drive](), round(PERIOD / SAMPLE))
-    made = drive_gripper(rig, controller, duration=DURATION)
+    made = drive(rig, DRIVES[by](), duration=DURATION, every=round(PERIOD / SAMPLE))
     angles, place = made.truth.angle[..., 0].T, made.truth.contact[:, 0, 0]
     forces = np.array([stiffness * one.dent for one in contact.touches(angles, place)])
     return Grasp(made.time, angles, place, forces, contact)

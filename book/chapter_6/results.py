@@ -21,8 +21,8 @@ from softgrip.logs.fingers import GripperLogs, each_identified, read_runs
 from softgrip.provenance import data_file
 from softgrip.pump.finger import Finger, swept_volume
 from softgrip.simulator.chance import SEED
+from softgrip.simulator.drive import drive
 from softgrip.simulator.gripper_calibration import step_identifies
-from softgrip.simulator.gripper_loop import drive_gripper
 from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG
@@ -103,7 +103,7 @@ def push_response(*, runs: int = 50) -> tuple[Floats, Floats]:
         (fingers, N).
     """
     pushed, free = (
-        drive_gripper(
+        drive(
             Simulation(printed_gripper(), runs=runs, seed=SEED, period=PERIOD),
             gripper_controller("H 2/s"),
             duration=12.0,

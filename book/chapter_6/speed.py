@@ -12,10 +12,11 @@ import numpy as np
 
 from book.chapter_6.logs import REST, low_speed_commands
 from softgrip.arrays import Floats
+from softgrip.control.rig_controller import CommandSequence
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.kept import Kept
 from softgrip.simulator.chance import SEED
-from softgrip.simulator.gripper_loop import CommandSequence, drive_gripper
+from softgrip.simulator.drive import drive
 from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG, REV
@@ -50,7 +51,7 @@ def errors_at(speed: float, *, runs: int = RUNS, seed: int = SEED) -> SpeedSprea
     """Simulate steps of the left finger at a speed, rev/s."""
     commands = low_speed_commands(speed * REV)
     rig = Simulation(printed_gripper(), runs=runs, seed=seed, period=PERIOD)
-    made = drive_gripper(rig, CommandSequence(commands), duration=PERIOD * commands.size + REST)
+    made = drive(rig, CommandSequence(commands), duration=PERIOD * commands.size + REST)
     last = round(END / PERIOD)
     true, measured = (
         angle[-last:, 0].mean(axis=0) / DEG for angle in (made.truth.angle, made.measured.angle)

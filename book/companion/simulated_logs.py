@@ -2,19 +2,174 @@
 
 With names as arguments it makes these alone; each is the same, byte by byte, each time. A chapter
 says in its file ``logs.py`` what writes each of its logs.
+
+The rows are those of `softgrip.rig.record`: the command of a row is the one that was held until its
+time. But nothing here keeps pace with a clock, loses its line, or has the interlock of a board.
 """
 
 import argparse
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from book.companion.exhibit import BOOK
+from softgrip.arrays import Floats
+from softgrip.control.loop import Controller
+from softgrip.control.pid import PERIOD
+from softgrip.control.rig_controller import RigController, Tracking
 from softgrip.errors import UnknownNameError
-from softgrip.provenance import data_folder
+from softgrip.logs.schema import LogHeader
+from softgrip.logs.writer import LogWriter
+from softgrip.provenance import Provenance, data_folder
+from softgrip.rig.record import log_row, more_columns, reference_rows
+from softgrip.simulator import calibration_table
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.drive import drive
+from softgrip.simulator.parameters import RigParameters
+from softgrip.simulator.simulation import Simulation, Truth, sample
+from softgrip.units import DEG
 
 FOLDER = "simulated"
 COMMAND = "python -m book.companion.simulated_logs"
+STEP = 60 * DEG
+STEP_DURATION = 20.0
+"""s: long enough for the slowest of the controllers of one finger."""
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """How a simulated log is made.
+
+    Attributes
+    ----------
+    control
+        Makes the controller, whose log begins at rest; or the motor speeds in open loop, rad/s,
+        shape (N,), whose log begins at the end of the first period.
+    words
+        What the log shows.
+    duration
+        s, under a controller.
+    reference
+        As of `record`, or what gives it.
+    push
+        As of `drive`.
+    events
+        Words by time, s.
+    notes
+        More for the header.
+    rig
+        Gives the parameters of the rig.
+    run
+        Number of the run.
+    plunger
+        Where the plunger starts, m.
+    until
+        Gauge pressure at which a run in open loop ends, Pa; it also ends with the stroke.
+    period
+        s.
+    calibration
+        Of the rig, below ``data/``.
+    """
+
+    control: Callable[[], RigController] | Floats
+    words: str
+    duration: float = STEP_DURATION
+    reference: Callable[[], Floats] | Floats | None = None
+    push: Callable[[float], ArrayLike] | None = None
+    events: Mapping[float, str] = field(default_factory=dict)
+    notes: Mapping[str, str] = field(default_factory=dict)
+    rig: Callable[[], RigParameters] = design_1
+    run: int = 0
+    plunger: float = 0.0
+    until: float = np.inf
+    period: float = PERIOD
+    calibration: str = calibration_table.FILE
+
+    def write(self, path: Path, source: str) -> None:
+        """Write the log to a path, which must be free, with the command that makes it."""
+        parameters = self.rig()
+        rig = Simulation(
+            parameters, seed=SEED, first=self.run, period=self.period, plunger=self.plunger
+        )
+        if callable(self.control):
+            made = drive(rig, self.control(), duration=self.duration, push=self.push)
+            time, command, seen, events = made.time, made.command[:, 0], made.measured, self.events
+        else:
+            command = self.control
+            seen, truth = rig.open_loop(command)
+            time, events = _end(truth, self.until, parameters.pump.stroke)
+        pump = parameters.pump
+        header = LogHeader(
+            provenance=Provenance.SIMULATED,
+            source=source,
+            back_end="simulated rig",
+            period=self.period,
+            calibration=f"data/{self.calibration}",
+            seed=f"{SEED} run {self.run}",
+            notes={
+                "shows": self.words,
+                **self.notes,
+                "area": f"{pump.area!r} m^2",
+                "lead": f"{pump.lead!r} m",
+                "plunger_at_start": f"{self.plunger!r} m",
+            },
+        )
+        reference = self.reference() if callable(self.reference) else self.reference
+        fingers = len(parameters.fingers)
+        followed = reference_rows(reference, fingers)
+        columns = more_columns(fingers, reference=reference is not None)
+        with LogWriter(path, header, more=columns) as log:
+            for k in range(len(time)):
+                wanted = followed[min(k, len(followed) - 1)]
+                row = log_row(float(time[k]), float(command[k]), sample(seen, k), wanted)
+                log.write(event=events.get(row["time"], ""), **row)
+
+
+def _end(truth: Truth, until: float, stroke: float) -> tuple[Floats, dict[float, str]]:
+    """Return the times of a run that ends at a pressure or with the stroke, and why it ends."""
+    time, reached = np.asarray(truth.time), truth.pressure[:, 0] >= until
+    over = np.flatnonzero(reached | (truth.plunger[:, 0] >= stroke))[:1]
+    words = "pressure reached" if reached[over].any() else "end of stroke"
+    kept = time[: over[0] + 1] if over.size else time
+    return kept, {round(float(time[k]), 9): words for k in over}
+
+
+def tracked(
+    controller: Callable[[], Controller],
+    name: str,
+    gains: str,
+    words: str,
+    *,
+    reference: Floats | None = None,
+) -> Recipe:
+    """Return the recipe of a controller of one finger.
+
+    Parameters
+    ----------
+    controller
+        Makes it, with its gains.
+    name
+        What it is called.
+    gains
+        Where its gains stand, below ``data/``.
+    words
+        What the log shows.
+    reference
+        rad, shape (N,); None for a step.
+    """
+    followed = np.full(round(STEP_DURATION / PERIOD) + 1, STEP) if reference is None else reference
+    return Recipe(
+        lambda: Tracking(controller(), followed),
+        words,
+        duration=(followed.size - 1) * PERIOD,
+        reference=followed[:, None],
+        notes={"controller": f"{name}; data/{gains}"},
+    )
 
 
 def writers() -> dict[str, Callable[[Path, str], None]]:

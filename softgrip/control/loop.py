@@ -18,7 +18,7 @@ SPEED_LIMIT = 5 * REV
 
 
 class Plant(Protocol):
-    """What a loop drives: a linear model, a simulated rig or a real one."""
+    """What a loop drives: a linear model, or the simulated grasp of the pad."""
 
     def advance(self, command: ArrayLike, duration: float) -> ArrayLike:
         """Hold the command for a time [s], then return the measurement [rad].
@@ -30,7 +30,7 @@ class Plant(Protocol):
 
 
 class Controller(Protocol):
-    """What closes a loop."""
+    """A law of one angle; `rig_controller.Tracking` brings it to a rig."""
 
     def update(self, reference: ArrayLike, measurement: ArrayLike) -> ArrayLike:
         """Return the command for the next period, from reference and measurement [rad]."""

@@ -3,6 +3,7 @@
 import numpy as np
 
 from softgrip.arrays import Floats, check_positive, read_only
+from softgrip.control.pid import PERIOD
 from softgrip.errors import InvalidInputError
 from softgrip.units import DEG
 
@@ -15,7 +16,7 @@ def staircase(
     increment: float = 10 * DEG,
     top: float = 60 * DEG,
     hold: float = HOLD,
-    period: float = 0.025,
+    period: float = PERIOD,
 ) -> Floats:
     """Return the samples of a staircase from 0 to a top and back; the first and last level are 0.
 

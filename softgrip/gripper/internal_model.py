@@ -160,6 +160,9 @@ class InternalModelController:
         Updates by which the model inside takes the command to come late, >= 0.
     method
         How ``H P-dagger`` is made discrete. The plant's model is exact for a held command.
+    digits
+        Decimals to which the command is given, so that the last bits of linear algebra, which
+        differ from machine to machine, do not make runs differ; None for all.
 
     Raises
     ------
@@ -188,6 +191,7 @@ class InternalModelController:
         limit: float = np.inf,
         delay_samples: int = 0,
         method: Method = "bilinear",
+        digits: int | None = None,
     ) -> None:
         check_positive(limit=1.0 if np.isinf(limit) else limit)
         self.target = read_only(target)
@@ -195,7 +199,7 @@ class InternalModelController:
             raise InvalidInputError(
                 "target", expected=f"shape ({len(gripper.fingers)},)", got=self.target.shape
             )
-        self.limit = limit
+        self.limit, self.digits = limit, digits
         self.matrices = controller_matrices(
             gripper,
             inverse,
@@ -238,4 +242,4 @@ class InternalModelController:
         command = m.C @ x + m.D_measured @ y + m.D_target @ goal
         sent = np.minimum(np.maximum(command, -self.limit), self.limit)
         self._state = m.A @ x + m.B_measured @ y + drive + np.multiply.outer(m.B_sent, sent)
-        return np.asarray(sent)
+        return np.asarray(sent if self.digits is None else np.round(sent, self.digits))

@@ -3,12 +3,9 @@
 from types import TracebackType
 from typing import Protocol, Self
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats
 from softgrip.board.errors import CommandRefusedError
-from softgrip.errors import InvalidInputError
 from softgrip.logs.schema import LogHeader
 from softgrip.simulator.motor import one_speed
 from softgrip.simulator.sensors import Measurement
@@ -87,21 +84,6 @@ class Connection(Protocol):
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None: ...
-
-
-class ConnectionPlant:
-    """A connection of one finger as `control.loop.run_loop` drives it: a speed in, an angle out."""
-
-    def __init__(self, connection: Connection) -> None:
-        self.connection = connection
-
-    def advance(self, command: ArrayLike, duration: float) -> Floats:
-        """Hold a motor speed [rad/s] for one period, or measure if the duration is 0; rad, (1,)."""
-        link = self.connection
-        if duration not in (0, link.period):
-            raise InvalidInputError("duration", expected=f"0 or {link.period} s", got=duration)
-        found = link.measure() if duration == 0 else link.advance(command)
-        return np.asarray(found.angle[0])
 
 
 class Interlock:

@@ -9,9 +9,10 @@ from weakref import WeakSet
 from numpy.typing import ArrayLike
 
 from softgrip.board.driver import Rig
+from softgrip.control.rig_controller import Tracking
 from softgrip.errors import InvalidInputError
 from softgrip.rig.interface import Connection
-from softgrip.rig.live_experiment import LiveExperiment, MovingReference
+from softgrip.rig.live_experiment import LiveExperiment
 from softgrip.rig.live_rig import check_period, listens
 from softgrip.rig.record import Recording, record
 from softgrip.simulator.motor import one_speed
@@ -86,9 +87,7 @@ class LiveRun:
         self.recording: Recording | None = None
         self.error: Exception | None = None
         self._rest, self._paced = rest, real_time and not isinstance(connection, Rig)
-        self._control = MovingReference(
-            experiment.controller(), experiment.reference, connection.fingers
-        )
+        self._control = Tracking(experiment.controller(), experiment.reference)
         self._command, self._begun = 0.0, 0.0
         self._halt = threading.Event()
         # A daemon: when the program ends, nobody speaks to the board any more, and it stops.
@@ -178,7 +177,7 @@ class LiveRun:
             self,
             self.experiment.duration,
             self.path,
-            references=self._control.now,
+            reference=self.experiment.reference[:, None],
             shows=self.experiment.shows,
             progress=self._sampled,
         )

@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike
 from softgrip.arrays import Floats, check_positive
 from softgrip.board.errors import BoardError, ConnectionLostError
 from softgrip.control.loop import SPEED_LIMIT
-from softgrip.control.state_feedback import SPEED_DIGITS
+from softgrip.control.rig_controller import CommandSequence, RigController
+from softgrip.errors import InvalidInputError
 from softgrip.logs.fingers import column
 from softgrip.logs.queued_writer import RunLog, plain
 from softgrip.rig.interface import Connection
-from softgrip.simulator.gripper_loop import CommandSequence, GripperController
 from softgrip.simulator.motor import one_speed
 from softgrip.simulator.sensors import Measurement
 
@@ -60,11 +60,11 @@ def show_progress(done: float, duration: float) -> None:
 
 def record(
     connection: Connection,
-    controller: GripperController | ArrayLike,
+    controller: RigController | ArrayLike,
     duration: float,
     path: Path | str,
     *,
-    references: ArrayLike | None = None,
+    reference: ArrayLike | None = None,
     limit: float = SPEED_LIMIT,
     shows: str = "",
     reconnect_within: float = RECONNECT_WITHIN,
@@ -78,14 +78,15 @@ def record(
         The rig, homed. It stays open.
     controller
         From the angles, rad, shape (fingers, 1), to the motor speed, rad/s: a controller of Chapter
-        6, one of Chapters 3 and 4 in `gripper_loop.OnTheMean`; or the speeds of each period, shape
+        6, one of Chapters 3 and 4 in `rig_controller.Tracking`; or the speeds of each period, shape
         (N,).
     duration
         s.
     path
         Of the log, which must not exist.
-    references
-        rad, shape (fingers,), for the log; None in open loop.
+    reference
+        For the log, rad, a number or shape (fingers,), or (N, fingers), one row a sample, the last
+        of which is held; None in open loop.
     limit
         The command is cut to it, rad/s.
     shows
@@ -112,22 +113,17 @@ def record(
     control = controller if hasattr(controller, "update") else CommandSequence(controller)
     header = connection.header()
     header = replace(header, notes={**header.notes, **({"shows": shows} if shows else {})})
-    fingers, wanted = connection.fingers, None if references is None else np.ravel(references)
-    units: dict[str, str] = {}
-    for finger in range(1, fingers):
-        units |= {column("angle_counts", finger): "count", column("angle", finger): "rad"}
-    if wanted is not None:
-        units |= {column("reference", finger): "rad" for finger in range(fingers)}
+    followed = reference_rows(reference, connection.fingers)
+    units = more_columns(connection.fingers, reference=reference is not None)
     lost: list[float] = []
     samples = 1
     seen = connection.measure()
     start = float(seen.time)
     with RunLog(Path(path), header, more=units) as log:
         try:
-            log.write(event=plain(connection.take_event()), **_row(seen, start, 0.0, wanted))
+            log.write(event=plain(connection.take_event()), **log_row(0.0, 0.0, seen, followed[0]))
             while float(seen.time) - start < duration - connection.period / 2:
-                answer = np.round(np.asarray(control.update(seen.angle), np.float64), SPEED_DIGITS)
-                command = float(np.clip(one_speed(answer), -limit, limit))
+                command = float(np.clip(one_speed(control.update(seen.angle)), -limit, limit))
                 try:
                     seen = connection.advance(command)
                 except ConnectionLostError as error:
@@ -137,7 +133,9 @@ def record(
                     # Until then the board held nothing: its own watchdog had stopped the motor.
                     command, seen = 0.0, connection.measure()
                     log.note("line found again")
-                row = _row(seen, start, command, wanted)
+                time = float(seen.time) - start
+                wanted = followed[min(samples, len(followed) - 1)]
+                row = log_row(time, command, seen, wanted)
                 log.write(event=plain(connection.take_event()), **row)
                 samples += 1
                 progress(row["time"], duration)
@@ -156,11 +154,44 @@ def _rest(connection: Connection, log: RunLog) -> None:
         log.note(f"the stop was not heard: {error}")
 
 
-def _row(
-    seen: Measurement, start: float, command: float, wanted: Floats | None
-) -> dict[str, float]:
+def reference_rows(reference: ArrayLike | None, fingers: int) -> Floats:
+    """Return the reference of a log as of `record`, shape (N, fingers); (1, 0) if there is none."""
+    if reference is None:
+        return np.empty((1, 0))
+    rows = np.atleast_2d(np.asarray(reference, dtype=np.float64))
+    if rows.ndim != 2 or rows.shape[1] not in (1, fingers) or rows.size == 0:
+        raise InvalidInputError(
+            "reference", expected=f"a number or shape (N, {fingers})", got=rows.shape
+        )
+    return np.broadcast_to(rows, (len(rows), fingers))
+
+
+def more_columns(fingers: int, *, reference: bool) -> dict[str, str]:
+    """Return the columns of a log beside those that all have, with their units."""
+    units: dict[str, str] = {}
+    for finger in range(1, fingers):
+        units |= {column("angle_counts", finger): "count", column("angle", finger): "rad"}
+    if reference:
+        units |= {column("reference", finger): "rad" for finger in range(fingers)}
+    return units
+
+
+def log_row(time: float, command: float, seen: Measurement, reference: Floats) -> dict[str, float]:
+    """Return the row of a log.
+
+    Parameters
+    ----------
+    time
+        Since the start, s.
+    command
+        Held until then, rad/s.
+    seen
+        Of one run, at that time.
+    reference
+        rad, shape (fingers,), or empty if there is none.
+    """
     row = {
-        "time": round(float(seen.time) - start, 9),
+        "time": round(time, 9),
         "command": command,
         "pressure_counts": int(seen.pressure_counts[0]),
         "pressure": float(seen.pressure[0]),
@@ -168,6 +199,4 @@ def _row(
     for finger, (angle, counts) in enumerate(zip(seen.angle, seen.angle_counts, strict=True)):
         row |= {column("angle", finger): float(angle[0])}
         row |= {column("angle_counts", finger): int(counts[0])}
-    if wanted is not None:
-        row |= {column("reference", k): round(float(angle), 9) for k, angle in enumerate(wanted)}
-    return row
+    return row | {column("reference", k): float(angle) for k, angle in enumerate(reference)}

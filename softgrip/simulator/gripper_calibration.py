@@ -12,10 +12,12 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from softgrip.arrays import Floats
+from softgrip.control.rig_controller import CommandSequence
+from softgrip.control.state_feedback import SPEED_DIGITS
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.gripper.plant import FingerDynamics
 from softgrip.logs.fingers import GripperLogs, each_identified
-from softgrip.simulator.gripper_loop import CommandSequence, drive_gripper
+from softgrip.simulator.drive import drive
 from softgrip.simulator.gripper_parameters import (
     DAMPING,
     INERTIA,
@@ -47,7 +49,7 @@ def push_commands(travel: float, pump: PumpParameters, speed: float = 5 * REV) -
         Not to be passed, rad/s.
     """
     periods = max(1, int(np.ceil(travel / (pump.advance * speed * PERIOD) - 1e-9)))
-    return np.full(periods, travel / (pump.advance * periods * PERIOD))
+    return np.full(periods, np.round(travel / (pump.advance * periods * PERIOD), SPEED_DIGITS))
 
 
 def step_identifies(
@@ -72,7 +74,7 @@ def step_identifies(
     rig = Simulation(parameters, runs=runs, seed=seed, period=PERIOD)
     # The six seconds of the fast push, longer by what a slow one takes.
     duration = OPEN_LOOP_DURATION + PERIOD * (commands.size - 2)
-    run = drive_gripper(rig, CommandSequence(commands), duration=duration)
+    run = drive(rig, CommandSequence(commands), duration=duration)
     angles = run.truth.angle
     logs = GripperLogs(run.time, run.command.T, angles.transpose(2, 1, 0), np.zeros(0), ())
     return angles[-1], each_identified(logs)

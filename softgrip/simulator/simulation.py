@@ -262,3 +262,8 @@ def together(seen: list[Sample]) -> Sample:
     """Join measurements or truths along a leading axis of samples."""
     names = [field.name for field in fields(seen[0])]
     return type(seen[0])(*(np.array([getattr(one, name) for one in seen]) for name in names))
+
+
+def sample(found: Sample, k: int) -> Sample:
+    """Return one of the samples of a measurement or a truth with a leading axis of samples."""
+    return type(found)(*(getattr(found, field.name)[k] for field in fields(found)))

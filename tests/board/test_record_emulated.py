@@ -6,18 +6,16 @@ import pytest
 from book.chapter_3.regulators import regulator
 from book.chapter_4.controllers import controller
 from book.chapter_6.controllers import gripper_controller, own_model, target_angles
+from book.companion.simulated_logs import STEP
 from softgrip.board.commands import HUNG_AFTER
 from softgrip.board.driver import Rig
 from softgrip.board.errors import CommandRefusedError
-from softgrip.control.loop import SPEED_LIMIT, run_loop
+from softgrip.control.rig_controller import Tracking
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.logs.fingers import fingers_of
 from softgrip.logs.reader import read_log
 from softgrip.rig.check import run_check
-from softgrip.rig.interface import ConnectionPlant
 from softgrip.rig.record import record
-from softgrip.simulator.closed_loop_log import STEP
-from softgrip.simulator.gripper_loop import OnTheMean
 from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.units import DEG
 from tests.board.emulated import needs_emulator
@@ -48,7 +46,7 @@ def path(tmp_path):
 def test_chapter_4_pid(path):
     with finger_rig() as rig:
         rig.home()
-        record(rig, OnTheMean(controller("full"), [STEP]), 6.0, path, references=[STEP])
+        record(rig, Tracking(controller("full"), STEP), 6.0, path, reference=STEP)
         assert rig.lost == 0
     log = read_log(path)
     # 5 % of the step, within which this PID rests by then, and the sensor's noise.
@@ -57,20 +55,18 @@ def test_chapter_4_pid(path):
     assert np.diff(log["time"]) == pytest.approx(0.025, abs=1e-6)
 
 
-def test_chapter_3_lqr():
+def test_chapter_3_lqr(path):
     with finger_rig() as rig:
         rig.home()
-        made = run_loop(
-            ConnectionPlant(rig), regulator("fast"), STEP, duration=3.0, limit=SPEED_LIMIT
-        )
-    assert made.measured[0, -40:].mean() == pytest.approx(STEP, abs=0.05 * STEP + END_NOISE)
+        record(rig, Tracking(regulator("fast"), STEP), 3.0, path, reference=STEP)
+    assert read_log(path)["angle"][-40:].mean() == pytest.approx(STEP, abs=0.05 * STEP + END_NOISE)
 
 
 def test_chapter_6_scheme(path):
     targets = target_angles(own_model())
     with gripper_rig() as rig:
         rig.home()
-        record(rig, gripper_controller("H 2/s"), 7.0, path, references=targets)
+        record(rig, gripper_controller("H 2/s"), 7.0, path, reference=targets)
     log = read_log(path)
     assert log["time"].size == 71
     ends = fingers_of(log)[:, -20:].mean(axis=1)

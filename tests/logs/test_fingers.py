@@ -34,7 +34,6 @@ from softgrip.logs.reader import read_log
 from softgrip.provenance import data_file, data_folder
 from softgrip.simulator import gripper_calibration_table
 from softgrip.simulator.gripper_calibration import step_identifies
-from softgrip.simulator.gripper_loop import CommandSequence, Held
 from softgrip.simulator.gripper_parameters import (
     LEFT,
     OPEN_LOOP_ANGLES,
@@ -180,11 +179,6 @@ def test_printed_model_has_the_printed_poles_left_first():
     left, right = printed_model().fingers
     assert (left.stiffness, right.stiffness) == (3.06, 3.61)
     assert target_angles(printed_model())[0] == pytest.approx(48.38 * DEG, abs=0.01 * DEG)
-
-
-def test_held_controller_is_asked_once_in_its_period():
-    held = Held(CommandSequence([1.0, 2.0]), 3)
-    assert [held.update([0.0]) for _ in range(8)] == [1, 1, 1, 2, 2, 2, 0, 0]
 
 
 def test_equal_fingers_keep_the_disc_and_unequal_ones_push_it():

@@ -235,7 +235,7 @@ def test_the_header_says_what_it_is(homed, back_end):
 def test_a_recording_can_be_read(homed, back_end, tmp_path):
     path = tmp_path / "log.csv"
     duration = 20 * homed.period
-    made = record(homed, [SPEED] * 10, duration, path, shows="a push", references=None)
+    made = record(homed, [SPEED] * 10, duration, path, shows="a push", reference=None)
     log = read_log(path)
     assert made.samples == log["time"].size == 21
     assert (made.log_failure, made.reconnections, log.repairs) == ("", (), ())

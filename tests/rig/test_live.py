@@ -3,7 +3,6 @@
 import time
 from threading import Event
 
-import numpy as np
 import pytest
 
 from book.live.experiments import experiments
@@ -12,13 +11,11 @@ from softgrip.board.emulated.emulated_rig import EmulatedRig, finger
 from softgrip.board.emulated.terminal import Terminal
 from softgrip.board.errors import CommandRefusedError, ConnectionLostError
 from softgrip.board.protocol import Flag
-from softgrip.control.pid import PID, Gains
 from softgrip.errors import InvalidInputError
 from softgrip.logs.reader import read_log
 from softgrip.provenance import data_folder
 from softgrip.rig.connect import connect
 from softgrip.rig.live import LiveRun
-from softgrip.rig.live_experiment import MovingReference
 from softgrip.rig.live_rig import check_simulated, listens
 from softgrip.rig.simulated import SimulatedConnection
 from softgrip.simulator.calibration import design_1
@@ -222,15 +219,6 @@ def test_what_cannot_be_driven_is_refused(path):
     replay = connect(f"replay:{KEPT}")
     with pytest.raises(InvalidInputError, match="the simulated rig"):
         check_simulated(replay)
-
-
-def test_a_reference_reaches_all_fingers_and_is_held_at_its_end():
-    moving = MovingReference(PID(Gains(kp=1.0)), [0.1, 0.3], fingers=2)
-    assert moving.now.tolist() == [0.1, 0.1]
-    logged = np.ravel(moving.now)
-    commands = [float(moving.update([[0.0], [0.2]])[0]) for _ in range(3)]
-    assert commands == pytest.approx([0.0, 0.2, 0.2])  # reference less the mean angle, 0.1
-    assert logged.tolist() == [0.3, 0.3]
 
 
 def test_a_log_is_named_after_what_was_run(tmp_path):

@@ -13,21 +13,19 @@ import pytest
 from book.chapter_3.regulators import regulator
 from book.chapter_4.controllers import controller
 from book.chapter_6.controllers import gripper_controller, own_model, target_angles
+from book.companion.simulated_logs import STEP
 from softgrip.board.driver import Rig
 from softgrip.board.errors import CommandRefusedError, ConnectionLostError
 from softgrip.board.protocol import Flag
-from softgrip.control.loop import SPEED_LIMIT, run_loop
+from softgrip.control.rig_controller import Tracking
 from softgrip.errors import InvalidInputError
 from softgrip.logs.reader import read_log
 from softgrip.provenance import data_folder
 from softgrip.rig.connect import connect
-from softgrip.rig.interface import ConnectionPlant
 from softgrip.rig.record import record, show_progress
 from softgrip.rig.simulated import SimulatedConnection, simulated_gripper
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
-from softgrip.simulator.closed_loop_log import STEP
-from softgrip.simulator.gripper_loop import OnTheMean
 from softgrip.simulator.simulation import Simulation
 
 FOLDER = data_folder() / "simulated"
@@ -76,31 +74,27 @@ def stop_with(error):
 def test_chapter_4_pid_gives_the_log_of_its_own_loop(path):
     with finger() as connection:
         connection.home()
-        record(connection, OnTheMean(controller("full"), [STEP]), 5.0, path, references=[STEP])
+        record(connection, Tracking(controller("full"), STEP), 5.0, path, reference=STEP)
     made, kept = read_log(path), read_log(FOLDER / "pid-full.csv")
     assert made["time"].tolist() == kept["time"][:201].tolist()
-    # Rounded commands move the angle by far less than a count, but one may tip over.
-    assert made["command"] == pytest.approx(kept["command"][:201], abs=1e-2)
-    assert made["angle_counts"] == pytest.approx(kept["angle_counts"][:201], abs=1)
+    for name in kept.columns:
+        assert made[name].tolist() == kept[name][:201].tolist()
 
 
-def test_chapter_3_lqr_gives_the_log_of_its_own_loop():
+def test_chapter_3_lqr_gives_the_log_of_its_own_loop(path):
     kept = read_log(FOLDER / "lqr-fast.csv")
     with finger() as connection:
         connection.home()
-        made = run_loop(
-            ConnectionPlant(connection), regulator("fast"), STEP,
-            duration=5.0, limit=SPEED_LIMIT,
-        )  # fmt: skip
-    assert made.measured[0].tolist() == kept["angle"][:201].tolist()
+        record(connection, Tracking(regulator("fast"), STEP), 5.0, path, reference=STEP)
+    assert read_log(path)["angle"].tolist() == kept["angle"][:201].tolist()
 
 
 def test_chapter_6_scheme_gives_the_log_of_its_own_loop(path):
     kept = read_log(FOLDER / "gripper-fast-1.csv")
-    targets = target_angles(own_model())
+    targets = np.round(target_angles(own_model()), 9)  # as the log's
     with simulated_gripper(seed=SEED) as gripper:
         gripper.home()
-        record(gripper, gripper_controller("H 4.8/s"), 3.0, path, references=targets)
+        record(gripper, gripper_controller("H 4.8/s"), 3.0, path, reference=targets)
     made = read_log(path)
     assert set(made.columns) == set(kept.columns)
     for name in kept.columns:
@@ -108,16 +102,26 @@ def test_chapter_6_scheme_gives_the_log_of_its_own_loop(path):
 
 
 def test_chapter_4_pid_runs_through_the_driver(rig, path):
-    record(rig, OnTheMean(controller("full"), [STEP]), 6.0, path, references=[STEP])
+    record(rig, Tracking(controller("full"), STEP), 6.0, path, reference=STEP)
     log = read_log(path)
     # The stub drives a simulated finger, which rests at the reference; its noise is 2 deg.
     assert log["angle"][-40:].mean() == pytest.approx(STEP, abs=np.radians(6))
     assert log.header.provenance == "simulated"
 
 
-def test_a_plant_of_a_connection_has_one_period():
-    with finger() as connection, pytest.raises(InvalidInputError, match="duration"):
-        ConnectionPlant(connection).advance(0.0, 0.1)
+def test_a_reference_that_moves_reaches_all_fingers_and_is_held_at_its_end(path):
+    with simulated_gripper() as gripper:
+        gripper.home()
+        record(gripper, [0.0], 0.5, path, reference=[[0.1], [0.3], [0.2]])
+    log = read_log(path)
+    for name in ("reference", "reference_2"):
+        assert log[name].tolist() == [0.1, 0.3, 0.2, 0.2, 0.2, 0.2]
+
+
+def test_a_reference_of_other_fingers_is_refused(path):
+    with simulated_gripper() as gripper, pytest.raises(InvalidInputError, match="reference"):
+        record(gripper, [0.0], 0.5, path, reference=[0.1, 0.2, 0.3])
+    assert not path.exists()
 
 
 # What goes wrong.

@@ -4,16 +4,15 @@ import numpy as np
 import pytest
 
 from book.chapter_4.controllers import controller
+from book.companion.simulated_logs import STEP
 from softgrip.board.errors import EndOfReplayError
-from softgrip.control.state_feedback import SPEED_DIGITS
+from softgrip.control.rig_controller import Tracking
 from softgrip.errors import DataFileError
 from softgrip.logs.reader import read_log
 from softgrip.provenance import data_folder
 from softgrip.rig.connect import connect
 from softgrip.rig.record import record
 from softgrip.rig.replay import ReplayConnection
-from softgrip.simulator.closed_loop_log import STEP
-from softgrip.simulator.gripper_loop import OnTheMean
 
 FOLDER = data_folder() / "simulated"
 PATH = FOLDER / "pid-full.csv"
@@ -39,9 +38,8 @@ def test_a_replay_says_what_was_recorded(replay):
 
 def test_a_recorded_controller_does_again_what_it_did(replay, tmp_path):
     path = tmp_path / "again.csv"
-    record(replay, OnTheMean(controller("full"), [STEP]), 5.0, path, references=[STEP])
-    # `record` rounds commands, as the loops of the gripper do.
-    assert replay.difference <= 0.5 * 10.0**-SPEED_DIGITS
+    record(replay, Tracking(controller("full"), STEP), 5.0, path, reference=STEP)
+    assert replay.difference == 0.0
     old, new = read_log(PATH), read_log(path)
     assert new["angle"].tolist() == old["angle"][:201].tolist()
     assert new.header.back_end == "replay"

@@ -10,7 +10,6 @@ from book.chapter_5.logs import STEP_PLUNGER, STEPS
 from softgrip.errors import InvalidInputError
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.capacity_check import constant_capacity_error, least_air_swept
-from softgrip.simulator.gripper_loop import CommandSequence, drive_gripper
 from softgrip.simulator.gripper_parameters import drawn_gripper, printed_gripper
 from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.simulation import Simulation
@@ -182,22 +181,6 @@ def test_energy_is_kept_without_losses_and_falls_with_them():
     assert -lost.sum() > 100 * np.ptp(free_energy)
 
 
-def test_a_push_moves_its_finger_and_through_the_air_the_other():
-    # A finger held back takes less air, so that the pressure and the other finger rise.
-    commands = np.concatenate([[4.3 * REV], np.zeros(60)])
-    free, pushed = (
-        drive_gripper(
-            Simulation(CALM_GRIPPER, period=0.1), CommandSequence(commands), duration=6.1, push=push
-        ).truth
-        for push in (None, lambda t: [[-1e-3 if t > 2.95 else 0.0], [0.0]])
-    )
-    off = (pushed.angle - free.angle)[-1, :, 0]
-    np.testing.assert_array_equal(pushed.angle[:30], free.angle[:30])
-    assert off[0] < -2 * DEG
-    assert 0 < off[1] < 1 * DEG
-    assert pushed.pressure[-1] > free.pressure[-1]
-
-
 @both
 def test_motor_and_stroke_limits_hold(rig):
     commands = abrupt(30, 8, 0.025) * 3
@@ -226,7 +209,7 @@ def test_run_to_run_spread_is_the_printed_one():
     # here takes more air and so sees less of it: some 10 %, and 4 % of scatter from 300 runs.
     spread = []
     for angle in STEP_PLUNGER:
-        commands = STEPS[f"step-{angle}-1"].commands
+        commands = STEPS[f"step-{angle}-1"].control
         _, truth = Simulation(FINGER, runs=300).open_loop(commands)
         assert np.median(truth.angle[-1]) / DEG == pytest.approx(angle, abs=1.0)
         spread.append(truth.angle[-1].std() / DEG)

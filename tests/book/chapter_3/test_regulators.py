@@ -5,10 +5,12 @@ import pytest
 
 from book.chapter_3 import regulators as lqr_gains
 from book.chapter_4.identified_model import identified_model
+from book.companion.simulated_logs import STEP
 from softgrip.control.differentiator import RobustDifferentiator
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import input_gain, lqr_gain
 from softgrip.control.minimum_time import minimum_settling_time
+from softgrip.control.rig_controller import Tracking
 from softgrip.control.state_feedback import StateFeedback
 from softgrip.dynamics.second_order import full_state_space
 from softgrip.errors import UnknownNameError
@@ -16,17 +18,17 @@ from softgrip.logs.steps import step_figures, step_log_figures
 from softgrip.provenance import Provenance, data_file
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
-from softgrip.simulator.closed_loop import run_on_rig
-from softgrip.simulator.closed_loop_log import STEP
+from softgrip.simulator.drive import drive
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG
 
 
 def batch(regulator, runs):
-    loop = run_on_rig(Simulation(design_1(), runs=runs, seed=SEED), regulator, STEP, duration=20.0)
+    rig = Simulation(design_1(), runs=runs, seed=SEED)
+    made = drive(rig, Tracking(regulator, STEP), duration=20.0)
     return (
-        step_figures(loop.result.time, loop.result.measured, STEP),
-        step_figures(loop.result.time, loop.true_angle, STEP, window=0),
+        step_figures(made.time, made.measured.angle[:, 0].T, STEP),
+        step_figures(made.time, made.truth.angle[:, 0].T, STEP, window=0),
     )
 
 

@@ -18,6 +18,7 @@ from softgrip.control.loop import SPEED_LIMIT, run_loop
 from softgrip.control.minimum_time import farthest
 from softgrip.control.pid import PERIOD, PID
 from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed
+from softgrip.control.rig_controller import Tracking
 from softgrip.control.staircase import staircase
 from softgrip.control.state_space_plant import StateSpacePlant
 from softgrip.dynamics.second_order import full_state_space
@@ -26,7 +27,6 @@ from softgrip.logs.reader import read_log
 from softgrip.logs.staircase import lag, mean_edge, staircase_figures
 from softgrip.logs.steps import smoothed, step_figures, step_log_figures
 from softgrip.provenance import Provenance, data_file
-from softgrip.simulator.angle_plant import AnglePlant
 from softgrip.simulator.calibration import (
     OPERATING_ANGLE,
     design_1,
@@ -34,7 +34,7 @@ from softgrip.simulator.calibration import (
     small_signal_stiffness,
 )
 from softgrip.simulator.chance import SEED
-from softgrip.simulator.closed_loop import run_on_rig
+from softgrip.simulator.drive import drive
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG, ML
 
@@ -52,7 +52,7 @@ def model():
 
 def test_rig_does_not_move_before_the_first_command():
     rig = Simulation(design_1())
-    angle = AnglePlant(rig).advance(0.0, 0.0)
+    angle = rig.measure().angle[0]
     assert rig.time == 0
     assert rig.truth.angle == rig.truth.plunger == 0
     assert abs(float(angle[0])) < 10 * DEG  # five times the noise
@@ -153,9 +153,9 @@ def test_full_design_settles_sooner_on_every_finger_at_60_deg():
     settled = {}
     for name in ("actuator", "full"):
         rig = Simulation(design_1(), runs=7, seed=SEED)
-        loop = run_on_rig(rig, controller(name), 60 * DEG, duration=20.0)
-        truth = step_figures(loop.result.time, loop.true_angle, 60 * DEG, window=0.0)
-        told = step_figures(loop.result.time, loop.result.measured, 60 * DEG)
+        made = drive(rig, Tracking(controller(name), 60 * DEG), duration=20.0)
+        truth = step_figures(made.time, made.truth.angle[:, 0].T, 60 * DEG, window=0.0)
+        told = step_figures(made.time, made.measured.angle[:, 0].T, 60 * DEG)
         settled[name] = np.median(told.settled_5_deg)
         # Averaged measurements judge as the truth does: within lag and window.
         assert settled[name] == pytest.approx(np.median(truth.settled_5_deg), abs=0.25)
@@ -172,8 +172,8 @@ def test_no_set_pressure_brings_the_actuator_design_to_the_printed_time():
         pid = PID(pid_gains.pid_gains("actuator"), limits=(-SET_PRESSURE, SET_PRESSURE))
         by_share = PressureAsSpeed(pid, set_pressure=set_pressure)
         rig = Simulation(design_1(), runs=7, seed=SEED)
-        loop = run_on_rig(rig, by_share, 60 * DEG, duration=20.0)
-        figures = step_figures(loop.result.time, loop.result.measured, 60 * DEG)
+        made = drive(rig, Tracking(by_share, 60 * DEG), duration=20.0)
+        figures = step_figures(made.time, made.measured.angle[:, 0].T, 60 * DEG)
         settled.append(float(np.median(figures.settled_5_deg)))
     np.testing.assert_allclose(settled[:3], [10.40, 8.34, 5.38], atol=0.1)
     assert np.isinf(settled[3])
@@ -193,8 +193,8 @@ def test_plunger_reading_settles_without_noise_and_not_with_it(model):
     found = step_figures(time, clean.measured, 60 * DEG, window=0.0)
     assert found.settled_5_percent == pytest.approx(2.75, abs=0.03)
     rig = Simulation(design_1(), runs=7, seed=SEED)
-    loop = run_on_rig(rig, controller("actuator by plunger"), 60 * DEG, duration=20.0)
-    assert np.isinf(step_figures(time, loop.result.measured, 60 * DEG).settled_5_deg).all()
+    made = drive(rig, Tracking(controller("actuator by plunger"), 60 * DEG), duration=20.0)
+    assert np.isinf(step_figures(time, made.measured.angle[:, 0].T, 60 * DEG).settled_5_deg).all()
 
 
 def test_staircase_lags_far_more_than_the_printed_fifth_of_a_second(model):

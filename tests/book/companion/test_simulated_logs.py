@@ -48,7 +48,7 @@ def test_each_push_sweeps_about_the_same_air_in_its_own_time():
     # From 60 mL each, the same pressure takes nearly the same sweep; speed sets the time.
     swept = {}
     for name in ("push-a", "push-b", "push-c", "push-d"):
-        pump = PUSHES[name].pump
+        pump = PUSHES[name].rig().pump
         log = read_log(data_file(f"simulated/{name}.csv").path)
         swept[name] = pump.area * pump.advance * log["command"][0] * log["time"][-1] / ML
     assert all(57 < air < 62 for air in swept.values())

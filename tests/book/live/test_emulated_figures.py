@@ -6,15 +6,15 @@ import pytest
 from book.chapter_4.controllers import controller
 from book.chapter_6.controllers import gripper_controller, own_model, target_angles
 from book.companion.exhibit import exhibit
+from book.companion.simulated_logs import STEP
 from softgrip.board.driver import Rig
+from softgrip.control.rig_controller import Tracking
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.logs.fingers import fingers_of
 from softgrip.logs.reader import read_log
 from softgrip.logs.steps import step_log_figures
 from softgrip.provenance import data_file
 from softgrip.rig.record import record
-from softgrip.simulator.closed_loop_log import STEP
-from softgrip.simulator.gripper_loop import OnTheMean
 from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.units import DEG
 from tests.board.emulated import needs_emulator
@@ -51,7 +51,7 @@ def test_a_step_of_the_finger(title, name, kept_logs, tmp_path):
     duration = float(read_log(own)["time"][-1])
     with open_rig() as rig:
         rig.home()
-        record(rig, OnTheMean(controller(name), [STEP]), duration, path, references=[STEP])
+        record(rig, Tracking(controller(name), STEP), duration, path, reference=STEP)
     # Two runs of one finger: the sensor's noise, 2 deg, in both, and a start that the board's
     # acceleration limit and its clock delay by a period or two.
     assert apart(path, own) < 5 * DEG
@@ -68,7 +68,7 @@ def test_two_fingers_on_one_pump(tmp_path):
     duration = float(read_log(kept("gripper-slow-1"))["time"][-1])
     with Rig(EmulatedRig(gripper()), fingers=2, period=PERIOD, pump=pump) as rig:
         rig.home()
-        record(rig, gripper_controller("H 2/s"), duration, path, references=targets)
+        record(rig, gripper_controller("H 2/s"), duration, path, reference=targets)
     # From run to run the fingers differ too.
     assert apart(path, kept("gripper-slow-1")) < 6 * DEG
     others = (kept(f"gripper-{kind}-1") for kind in ("open", "fast", "push"))
