@@ -51,9 +51,10 @@ def table_6_h() -> pd.DataFrame:
     rows = []
     for name in ENTRIES:
         found, margin = judged(name), robustness_margin(name)
+        _, _, other = name.partition(", ")
         rows.append(
             {
-                "controller": name.strip(),
+                "controller": f"same, {other}" if other else name,
                 "settled": middle_and_ends(found.settling["2 deg"]),
                 "overshoot (%)": middle_and_ends(found.overshoot, 0.01, 0),
                 "out of step": middle_and_ends(found.synchronization, DEG),
