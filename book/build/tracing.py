@@ -9,13 +9,13 @@ lays); the build re-executes the pages whose trace no longer holds (`is_current`
 import atexit
 import hashlib
 import json
-import os
 import sys
 import time
 from collections.abc import Iterable
 from pathlib import Path
 
 import softgrip
+from softgrip.reads import listen
 
 TRACE_VARIABLE = "SOFTGRIP_PAGE_TRACE"
 ROOT = Path(softgrip.__file__).resolve().parent.parent
@@ -60,8 +60,7 @@ def digest(path: Path) -> str:
     return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "missing"
 
 
-def _watched(paths: Iterable[str]) -> set[Path]:
-    files = (Path(path) for path in paths)
+def _watched(files: Iterable[Path]) -> set[Path]:
     return {
         file
         for file in files
@@ -78,20 +77,12 @@ def record(trace: str) -> None:
     files and listed folders from the interpreter's own audit. A file that was changed while the
     process ran may have been read before: it is recorded as such, and matches nothing.
     """
-    opened: set[str] = set()
+    opened: set[Path] = set()
     started = time.time()
-
-    def audit(event: str, args: tuple[object, ...]) -> None:
-        if event == "open" and isinstance(args[0], str | os.PathLike):
-            mode = args[1]
-            if mode is None or (isinstance(mode, str) and "r" in mode):
-                opened.add(os.path.realpath(args[0]))
-        elif event in ("os.listdir", "os.scandir") and isinstance(args[0], str | os.PathLike):
-            opened.add(os.path.realpath(args[0]))
 
     def write() -> None:
         modules = (
-            os.path.realpath(file)
+            Path(file).resolve()
             for module in list(sys.modules.values())
             if (file := getattr(module, "__file__", None)) is not None
         )
@@ -106,7 +97,7 @@ def record(trace: str) -> None:
         Path(trace).parent.mkdir(parents=True, exist_ok=True)
         Path(trace).write_text(json.dumps(content, indent=1))
 
-    sys.addaudithook(audit)
+    listen(opened.add, "open", "os.listdir", "os.scandir")
     atexit.register(write)
 
 

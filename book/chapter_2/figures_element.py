@@ -139,7 +139,6 @@ def _draw_section(axes: Any, at: Floats, moved: Floats) -> Any:
     "the plate's starts 23 per cent below and is still rising at the right end. The pyramid's "
     "curves come from 5 to 13 per cent below and flatten.",
     provenance=Provenance.SIMULATED,
-    data=("tactile/element_convergence.csv",),
 )
 def figure_2_a() -> Figure:
     """Draw mesh convergence."""
@@ -170,7 +169,6 @@ def figure_2_a() -> Figure:
     "By finite elements both fall from about 20 to below one, the hemisphere a little above the "
     "pyramid for sharp tops and further above it for flat ones.",
     provenance=Provenance.SIMULATED,
-    data=("tactile/element_cut.csv",),
 )
 def figure_2_b() -> Figure:
     """Draw compliance over the cut."""
@@ -195,10 +193,6 @@ def figure_2_b() -> Figure:
     return drawn
 
 
-PRINTED_FILE = "tactile/table_2_1.csv"
-FEM_FILES = ("tactile/element_convergence.csv", "tactile/element_cut.csv")
-
-
 def deformation(row: PrintedRow, force: float, modulus: float, element: Element) -> float:
     """Return what a row's method gives for a force, N, and a modulus, Pa; in m."""
     if row.method == "Hertzian":
@@ -221,7 +215,6 @@ def _cells(row: PrintedRow, modulus: float, element: Element) -> str:
     "finite elements are the largest displacement of the top: they do not come out, not even for "
     "the elements of the row below them. Hertz with the exponent 2/3.",
     provenance=Provenance.PRINTED,
-    data=(PRINTED_FILE, FEM_FILES[0]),
 )
 def table_2_1_recomputed() -> pd.DataFrame:
     """Tabulate Table 2.1 beside ours."""
@@ -248,7 +241,6 @@ def table_2_1_recomputed() -> pd.DataFrame:
     "three cells of its row to the last digit; finite elements: the top that gives the cell at 0.3 "
     "N as the largest displacement.",
     provenance=Provenance.PRINTED,
-    data=(PRINTED_FILE, FEM_FILES[1]),
 )
 def table_2_a() -> pd.DataFrame:
     """Tabulate inputs that rows ask for."""
@@ -302,7 +294,6 @@ def _asked(modulus: float) -> list[tuple[str, str, float, float]]:
     "the base and of the top. Last column: pyramid by hemisphere, by finite elements, with one "
     "area of the top, which is round for one and square for the other.",
     provenance=Provenance.SIMULATED,
-    data=FEM_FILES[1:],
 )
 def table_2_b() -> pd.DataFrame:
     """Tabulate which shape gives way most, over the cut."""

@@ -6,10 +6,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from book.chapter_2.force_logs import CYCLE_FORCES, REPETITIONS, file_of, read
+from book.chapter_2.force_logs import CYCLE_FORCES, REPETITIONS, read
 from book.chapter_2.forces import (
-    COMPARISON,
-    DRIFT,
     RANDOM,
     WHOLE,
     kept_comparison,
@@ -23,12 +21,11 @@ from book.companion.exhibit import figure, table
 from book.companion.style import BLUE, GREEN, GREY, MEASURED, ORANGE, SKY, VERMILION, WIDTH
 from softgrip.arrays import Floats
 from softgrip.provenance import Provenance
-from softgrip.tactile.force import TABLE_2_2, Weighing, table_2_2
+from softgrip.tactile.force import Weighing, table_2_2
 from softgrip.tactile.force_comparison import regressors
 from softgrip.tactile.nadaraya_watson import left_out_error, tried_bandwidths
 from softgrip.units import GRAM_FORCE
 
-POINTS, CYCLES = file_of("weights"), file_of("cycles")
 FOUR = {
     "ordinary least squares": ORANGE,
     "neural network": GREEN,
@@ -65,7 +62,6 @@ def draw_points(axes: Any) -> None:
     "three times and hardly apart; after unloading a tail of some tenths of a volt dies away. In "
     "the third three narrow loops of voltage over force, the unloading branch above the other.",
     provenance=Provenance.SIMULATED,
-    data=(POINTS, CYCLES),
 )
 def figure_2_8() -> Figure:
     """Draw the response of the layer, its cycles and its hysteresis."""
@@ -102,7 +98,6 @@ def figure_2_8() -> Figure:
     "30 gram-force. The network goes smoothly through them. The nearest neighbours are a staircase "
     "and so, with rounder edges, is the Nadaraya-Watson regressor.",
     provenance=Provenance.SIMULATED,
-    data=(POINTS, COMPARISON),
 )
 def figure_2_9() -> Figure:
     """Draw the fits of four regressors."""
@@ -136,7 +131,6 @@ def figure_2_9() -> Figure:
     "with lines at both ends it stays near 1.2. In the second the error without correction grows "
     "from three to 27 in eight hours, the other two stay near three and under two.",
     provenance=Provenance.SIMULATED,
-    data=(DRIFT,),
 )
 def figure_2_g() -> Figure:
     """Draw what the correction of drift repairs."""
@@ -167,7 +161,6 @@ def figure_2_g() -> Figure:
     "force, at a bandwidth of 0.011 volts; leaving out weights, it is lowest, 2.9, at 0.08 volts. "
     "Above 0.3 volts they rise together.",
     provenance=Provenance.SIMULATED,
-    data=(POINTS,),
 )
 def figure_2_h() -> Figure:
     """Draw the error of what is left out over the bandwidth."""
@@ -199,7 +192,6 @@ def _measured(weighing: Weighing) -> str:
     "from a spread of seating that is calibrated to the printed ones; all simulated objects are "
     "rigid. Bandwidth by leaving out whole weights.",
     provenance=Provenance.SIMULATED,
-    data=(TABLE_2_2, file_of("weights"), file_of("objects")),
 )
 def table_2_2_beside_ours() -> pd.DataFrame:
     """Tabulate Table 2.2 beside the simulated layer."""
@@ -224,7 +216,6 @@ def table_2_2_beside_ours() -> pd.DataFrame:
     "and that of one measurement, if ten scatter normally, and the deviation in newtons, of which "
     "Section 2.2 says 0.015 N on average.",
     provenance=Provenance.PRINTED,
-    data=(TABLE_2_2,),
 )
 def table_2_h() -> pd.DataFrame:
     """Tabulate intervals and tests of Table 2.2."""
@@ -263,7 +254,6 @@ def table_2_h() -> pd.DataFrame:
     'weight at a time. "Wide" has the bandwidth that is best for the latter, chosen on the same '
     "points; isotonic regression is ours, and has no setting.",
     provenance=Provenance.SIMULATED,
-    data=(COMPARISON,),
 )
 def table_2_i() -> pd.DataFrame:
     """Tabulate the comparison of regressors."""

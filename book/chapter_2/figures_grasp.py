@@ -4,7 +4,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from book.chapter_2.force_logs import file_of
 from book.chapter_2.grasps import (
     FRICTION,
     OBJECTS,
@@ -22,18 +21,14 @@ from book.companion.exhibit import figure, table
 from book.companion.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, WIDTH
 from softgrip.provenance import Provenance
 from softgrip.simulator.pad_gripper import GraspGripper
-from softgrip.tactile.force import TABLE_2_2
 from softgrip.tactile.force_control import largest_loop_gain
 from softgrip.tactile.friction import (
-    PRINTED_GRASPS,
     Interval,
     common_friction,
     contact_force,
     holding_probability,
     printed_grasps,
 )
-
-DATA = (PRINTED_GRASPS, file_of("weights"))
 
 
 @figure(
@@ -48,7 +43,6 @@ DATA = (PRINTED_GRASPS, file_of("weights"))
     "None swings over by much. The true force ends a few per cent beside the measured one. The "
     "grey line of the egg lies on the desired force, those of tofu and carrot below it.",
     provenance=Provenance.SIMULATED,
-    data=DATA,
 )
 def figure_2_14() -> Figure:
     """Draw desired, measured and true force of the three grasps."""
@@ -84,7 +78,6 @@ def figure_2_14() -> Figure:
     "bar below each is, for tofu and carrot, left of the strip; the egg's spans it from 0.79 to "
     "1.3.",
     provenance=Provenance.PRINTED,
-    data=DATA[:1],
 )
 def figure_2_i() -> Figure:
     """Draw the intervals of the friction coefficient."""
@@ -127,7 +120,6 @@ def figure_2_i() -> Figure:
     "missing share falls from one to just above a third where a red line ends it; three marks lie "
     "above the curve: the egg at 0.75, the carrot at 0.70, the tofu at 0.95.",
     provenance=Provenance.SIMULATED,
-    data=DATA,
 )
 def figure_2_j() -> Figure:
     """Draw what each reading of the command makes of a grasp."""
@@ -181,7 +173,6 @@ def _ripple(name: str, factor: float = 1.0) -> str:
     "one; the last rows take it to be 1, which is between the bounds common to all three. The last "
     "row supposes that a measured force deviates by 0.015 N, as Section 2.2 prints on average.",
     provenance=Provenance.PRINTED,
-    data=(DATA[0], TABLE_2_2),
 )
 def table_2_j() -> pd.DataFrame:
     """Tabulate the friction that printed forces imply, and what is then lifted."""
@@ -215,7 +206,6 @@ def table_2_j() -> pd.DataFrame:
     "is 1, or at the ends of what the print leaves. Held: the true lift force of the last second "
     "bears the printed weight. Last: the force that is missing if the command is a position.",
     provenance=Provenance.SIMULATED,
-    data=DATA,
 )
 def table_2_k() -> pd.DataFrame:
     """Tabulate how the simulated force comes to rest, and whether the object is held."""

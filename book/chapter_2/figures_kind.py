@@ -99,7 +99,6 @@ def draw_confusions(truth: ArrayLike, told: Mapping[str, ArrayLike]) -> Figure:
     "two above it, with a band three times as wide. Both bands lie below the printed squares at 96 "
     "and 97 per cent.",
     provenance=Provenance.SIMULATED,
-    data=("tactile/kind_neighbours.csv",),
 )
 def figure_2_7() -> Figure:
     """Draw training and testing accuracy against k."""
@@ -124,7 +123,6 @@ def figure_2_7() -> Figure:
     "lines, and lines as points or surfaces, the single classifier being right in 66 cases and "
     "the bagging one in 64.",
     provenance=Provenance.SIMULATED,
-    data=(TRAINING, OBJECTS),
 )
 def figure_2_11() -> Figure:
     """Draw the confusion matrices of the single and of the bagging classifier."""
@@ -145,7 +143,6 @@ def figure_2_11() -> Figure:
     alt="Bars from minus five to four. With replacement they lie about zero, without about one. "
     "The printed gain of three is at their right end.",
     provenance=Provenance.SIMULATED,
-    data=("tactile/kind_draws.csv",),
 )
 def figure_2_e() -> Figure:
     """Draw the distribution of the gain by bagging."""
@@ -173,7 +170,6 @@ def figure_2_e() -> Figure:
     alt="Twenty-one rows with two marks each, which mostly lie within a few per cent of each "
     "other. Surfaces are at 90 to 100 per cent, points at 73 to 97, lines at 63 to 87.",
     provenance=Provenance.SIMULATED,
-    data=("tactile/kind_objects.csv",),
 )
 def figure_2_f() -> Figure:
     """Draw the accuracy on objects that were felt before and that were not."""
@@ -214,7 +210,6 @@ def _percent(found: Accuracy) -> str:
     "126, means over 20 splits and their range; and on the 80 contacts of eight objects, for the "
     "first seed, with its 95 % interval. In brackets what is printed.",
     provenance=Provenance.SIMULATED,
-    data=("tactile/kind_classifiers.csv",),
 )
 def table_2_e() -> pd.DataFrame:
     """Tabulate the classifiers' accuracies beside the printed ones."""
@@ -267,7 +262,6 @@ def table_2_f() -> pd.DataFrame:
     "objects, with and without those of them that are in the training log. Last, McNemar's exact "
     "test between the two classifiers.",
     provenance=Provenance.SIMULATED,
-    data=(TRAINING, OBJECTS, "tactile/kind_objects.csv"),
 )
 def table_2_g() -> pd.DataFrame:
     """Tabulate accuracies on contacts and on objects that were left out."""

@@ -14,7 +14,6 @@ from book.companion.exhibit import figure, table
 from book.companion.style import BLACK, BLUE, GREEN, ORANGE, VERMILION, WIDTH
 from softgrip.arrays import Floats
 from softgrip.provenance import Provenance
-from softgrip.simulator import pad_calibration_table
 from softgrip.simulator.pad import ideal_responses, make_pad, press, responses_to
 from softgrip.simulator.pad_calibration_table import KEPT
 from softgrip.simulator.pad_objects import PadObject, pad_object
@@ -26,7 +25,6 @@ from softgrip.tactile.pad_layout import ELEMENT_SIDE, PAD_SIZE, THREE_TWO_THREE
 from softgrip.units import DEG, MM
 
 LOGS = (TRAINING, OBJECTS)
-CALIBRATION = pad_calibration_table.FILE
 GRASPS = (
     ("egg", (0.0, 2.0), 0.0, 0.30),
     ("tofu", (0.0, 0.0), 0.0, 0.09),
@@ -121,7 +119,6 @@ def draw_estimate(axes: Any, responses: Floats, *, line: bool) -> None:
     "almost white; under the carrot two or three squares that lie along it are pale red. A blue "
     "line runs along it or, where it lies askew, up to some twenty degrees off.",
     provenance=Provenance.SIMULATED,
-    data=(CALIBRATION,),
 )
 def figure_2_13() -> Figure:
     """Draw the pad under six grasps."""
@@ -166,7 +163,6 @@ def _place_map(step: float) -> tuple[Floats, Floats]:
     "element only is found in its middle. In the second, three curves rise: errors of lines are "
     "the smallest, with a median of 0.8 millimetres, then points with 2.5, then surfaces with 4.",
     provenance=Provenance.SIMULATED,
-    data=LOGS[:1],
 )
 def figure_2_c() -> Figure:
     """Draw how true places move to estimated ones, and the distribution of the errors."""
@@ -200,7 +196,6 @@ def figure_2_c() -> Figure:
     "degrees of the diagonal, many on horizontal rows at 0, 61, 90 and minus 61 degrees, where two "
     "elements are felt; a few lie far off.",
     provenance=Provenance.SIMULATED,
-    data=LOGS[:1],
 )
 def figure_2_d() -> Figure:
     """Draw the error of the angle on the ideal pad, and the angles of the log."""
@@ -257,7 +252,6 @@ def _row(name: str, log: str, chosen: Any) -> dict[str, object]:
     "contacts are within them. To a line the place is counted square to it. A line's angle is said "
     "where two elements or more are felt; by two, it can only be that of their connection.",
     provenance=Provenance.SIMULATED,
-    data=LOGS,
 )
 def table_2_c() -> pd.DataFrame:
     """Tabulate the errors by kind, by number of elements, and by food."""
@@ -277,7 +271,6 @@ def table_2_c() -> pd.DataFrame:
     caption="What is assumed of the simulated pad: nothing is printed that could calibrate it. The "
     "first two lines are printed numbers beside what it gives; no parameter was set by them.",
     provenance=Provenance.SIMULATED,
-    data=(CALIBRATION,),
 )
 def table_2_d() -> pd.DataFrame:
     """Tabulate the assumptions of the simulated pad."""

@@ -6,7 +6,6 @@ errors of many simulated hours with and without the correction of Section 2.3 fo
 """
 
 from collections.abc import Callable, Mapping
-from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 
@@ -18,6 +17,7 @@ from softgrip.arrays import Floats, read_only
 from softgrip.errors import InvalidInputError
 from softgrip.kept import write_data
 from softgrip.provenance import data_file, data_folder
+from softgrip.reads import remembered
 from softgrip.simulator.chance import SEED
 from softgrip.tactile.drift import DRIFT_WEIGHTS, DriftBetween, LinearDrift
 from softgrip.tactile.force import Weighing
@@ -34,21 +34,21 @@ WIDE = "Nadaraya-Watson, wide"
 """With the bandwidth by leaving out whole weights; see `weight_bandwidth`."""
 
 
-@cache
+@remembered
 def weight_points() -> tuple[Floats, Floats]:
     """Return voltage (V) and force (N) of the 69 points, shapes (69,)."""
     log = read("weights")
     return read_only(log["voltage [V]"]), read_only(log["weight [N]"])
 
 
-@cache
+@remembered
 def weight_bandwidth(whole: bool = True) -> float:
     """Return the bandwidth, V, with the least error on weights, or else points, left out."""
     voltage, force = weight_points()
     return best_bandwidth(voltage[:, None], force, groups=force if whole else None)
 
 
-@cache
+@remembered
 def force_model(whole: bool = True) -> NadarayaWatson:
     """Return the regressor of Section 2.3 on the 69 points; `whole` as of `weight_bandwidth`."""
     voltage, force = weight_points()

@@ -7,7 +7,6 @@ Calibrated to the print, and so never claimed as found: the desired forces, the 
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cache
 from types import MappingProxyType
 
 import numpy as np
@@ -17,6 +16,7 @@ from book.chapter_2.logs import PAD_SEED
 from softgrip.arrays import Floats
 from softgrip.control.pid import PERIOD, Gains
 from softgrip.control.step_metrics import step_metrics
+from softgrip.reads import remembered
 from softgrip.simulator.force_layer import ForceLayer, volts
 from softgrip.simulator.pad import make_pad
 from softgrip.simulator.pad_grasp import GraspRecord, grasp
@@ -43,7 +43,7 @@ END = 1.0
 """s at the end of a record that count as rest."""
 
 
-@cache
+@remembered
 def squeezes() -> Mapping[str, Squeeze]:
     """Return how the force rises on each object, by its printed name."""
     pad = make_pad(PadParameters(), PAD_SEED)
@@ -60,13 +60,13 @@ def desired_force(name: str) -> float:
     return float(printed_grasps()[name].contact)
 
 
-@cache
+@remembered
 def largest_stiffness() -> float:
     """Return the stiffness of the stiffest contact at its desired force, N/m."""
     return max(found.stiffness(desired_force(name)) for name, found in squeezes().items())
 
 
-@cache
+@remembered
 def count_forces() -> Floats:
     """Return the force that the regressor says for each count of the converter, N."""
     layer = ForceLayer()
@@ -85,14 +85,14 @@ def position_gains() -> Gains:
     return Gains(kp=largest_loop_gain(GraspGripper().lag) / 2 / largest_stiffness())
 
 
-@cache
+@remembered
 def study(name: str, factor: float = 1.0) -> GraspRecord:
     """Simulate the grasps of an object, by its printed name; gains as of `study_gains`."""
     gains = study_gains(factor)
     return grasp(squeezes()[name], gains, desired_force(name), count_forces(), runs=RUNS, seed=SEED)
 
 
-@cache
+@remembered
 def position_study(name: str, opening: float = 0.0) -> GraspRecord:
     """Simulate the same with the command as a position, from an opening, m: by default none."""
     return grasp(

@@ -7,7 +7,7 @@ come in random order.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +17,7 @@ from softgrip.logs.contacts import PRESS, REST, TRUTH, read_contacts
 from softgrip.logs.schema import PAD_CHANNELS, LogHeader
 from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance, data_file
+from softgrip.reads import remembered
 from softgrip.simulator.chance import SEED, streams
 from softgrip.simulator.pad import convert, make_pad, press, to_volts, voltages
 from softgrip.simulator.pad_objects import FOODS, OTHERS, PadObject
@@ -153,13 +154,13 @@ TRAINING, OBJECTS = "simulated/pad-training.csv", "simulated/pad-objects.csv"
 """The logs below ``data/``."""
 
 
-@cache
+@remembered
 def contacts(name: str) -> Contacts:
     """Read a log of the simulated pad, `TRAINING` or `OBJECTS`."""
     return read_contacts(data_file(name).path)
 
 
-@cache
+@remembered
 def errors(name: str) -> PlaceErrors:
     """Return the errors of place and angle of its contacts."""
     return place_errors(contacts(name), THREE_TWO_THREE)

@@ -1,7 +1,5 @@
 """What the sliders of Chapter 2 draw."""
 
-from functools import cache
-
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
@@ -13,6 +11,7 @@ from book.chapter_2.logs import TRAINING, contacts
 from book.companion.style import BLUE, GREY, WIDTH, still, style
 from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
+from softgrip.reads import remembered
 from softgrip.simulator.pad import ideal_responses
 from softgrip.simulator.pad_objects import pad_object
 from softgrip.simulator.pad_surface import Pose
@@ -115,7 +114,7 @@ def draw_bandwidth(bandwidth: float) -> Figure:
     return drawn
 
 
-@cache
+@remembered
 def _classifier() -> FastKind:
     training = contacts(TRAINING)
     return FastKind.from_fitted(bagged_neighbours().fit(training.responses, training.kinds))

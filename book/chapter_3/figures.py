@@ -42,10 +42,6 @@ from softgrip.provenance import Provenance
 from softgrip.simulator.calibration import design_1
 from softgrip.units import DEG, MM, MPa
 
-TABLE_3_1, TABLE_3_2 = "actuator/table_3_1.csv", "actuator/table_3_2.csv"
-CALIBRATION = "calibration/simulated_rig.csv"
-OPTIMUM = table_3_1()["Opt. parameters"]
-FEM = tuple(f"fem/{name}.csv" for name in ("table_3_1", "groove_floor", "convergence"))
 DASHES = ("-", "--", "-.", ":", "--", "-.", ":")
 COLOURS = (BLUE, SKY, GREEN, ORANGE, VERMILION, PURPLE, GREY)
 SHOWN_FLOORS = (0.0, 6 * MM, 12 * MM)
@@ -59,6 +55,11 @@ LOOK: dict[str, dict[str, Any]] = {
 """How a tested design is drawn."""
 
 
+def optimum() -> Section:
+    """Return the best section of Table 3.1."""
+    return table_3_1()["Opt. parameters"]
+
+
 @figure(
     "3.3",
     caption="The cross-section of Design 1 with its four dimensions (our drawing of (c) and (d)). "
@@ -68,14 +69,14 @@ LOOK: dict[str, dict[str, Any]] = {
     "that begins at the neutral surface, 4 millimetres above the bottom. Arrows mark a from the "
     "neutral surface to the top, b to the bottom, the width w and the wall t.",
     provenance=Provenance.PRINTED,
-    data=(TABLE_3_1,),
 )
 def figure_3_3() -> Figure:
     """Draw the section with its dimensions."""
     drawn = Figure(figsize=(WIDTH, 3.6))
     axes = drawn.subplots()
-    draw_section(axes, OPTIMUM)
-    a, b, w, t = (x / MM for x in (OPTIMUM.top, OPTIMUM.bottom, OPTIMUM.width, OPTIMUM.wall))
+    draw_section(axes, optimum())
+    best = optimum()
+    a, b, w, t = (x / MM for x in (best.top, best.bottom, best.width, best.wall))
     for name, start, end, place in (
         ("a", (18, 0), (18, a), (19, a / 2)),
         ("b", (18, -b), (18, 0), (19, -b / 2)),
@@ -98,18 +99,17 @@ def figure_3_3() -> Figure:
     "crosses one at n = 1.05; the bending angle rises and crosses it at 1.56; the sum of the "
     "objective rises more slowly and crosses it at 2.08. Dotted lines stand at 2.17, 2.37 and 2.5.",
     provenance=Provenance.PRINTED,
-    data=(TABLE_3_1, "actuator/table_3_3.csv"),
 )
 def figure_3_a() -> Figure:
     """Draw what n each of three printed results asks for."""
     drawn = Figure(figsize=(WIDTH, 3.4))
     axes = drawn.subplots()
     powers = np.linspace(1, 2.6, 81)
-    fingers = [Finger(OPTIMUM, fractional_power=float(n)) for n in powers]
+    fingers = [Finger(optimum(), fractional_power=float(n)) for n in powers]
     problems = [DesignProblem(fractional_power=float(n)) for n in powers]
     frequencies = [natural_frequency(f, FREQUENCY_MASS) / 2.62 for f in fingers]
     angles = [free_bending(f, 0.15 * MPa) / (290 * DEG) for f in fingers]
-    sums = [objective(p, OPTIMUM) / 2.36 for p in problems]
+    sums = [objective(p, optimum()) / 2.36 for p in problems]
     curves = (
         ("frequency, 2.62 rad/s", frequencies, BLUE, "-", FREQUENCY_POWER),
         ("angle, 290 deg", angles, ORANGE, "--", ANGLE_POWER),
@@ -137,7 +137,6 @@ def figure_3_a() -> Figure:
     "best section lies at b = 5 and a = 20; the printed one at b = 4 and a = 20. Dashed lines of "
     "constant frequency run parallel to those of constant height.",
     provenance=Provenance.PRINTED,
-    data=(TABLE_3_1, TABLE_3_2),
 )
 def figure_3_b() -> Figure:
     """Draw the objective over the heights above and below the neutral surface."""
@@ -183,7 +182,6 @@ def figure_3_b() -> Figure:
     "newton metres. The simulated tests of Designs 1 and 2 lie on a lower straight line that ends "
     "at 0.36; Design 3 follows it up to 0.1 megapascal and then stays at 0.15.",
     provenance=Provenance.SIMULATED,
-    data=(CALIBRATION, TABLE_3_1),
 )
 def figure_3_9() -> Figure:
     """Draw blocked torque over pressure: model and simulated rig."""
@@ -191,7 +189,7 @@ def figure_3_9() -> Figure:
     axes = drawn.subplots()
     pressure = np.linspace(0, 0.25, 51) * MPa
     axes.plot(
-        pressure / MPa, torque(OPTIMUM, pressure), color=BLUE, label="Eq. (3.4), (E1) and (E2)"
+        pressure / MPa, torque(optimum(), pressure), color=BLUE, label="Eq. (3.4), (E1) and (E2)"
     )
     tested = np.linspace(0, 0.25, 11) * MPa
     for name, rig in DESIGNS.items():
@@ -214,7 +212,6 @@ def figure_3_9() -> Figure:
     "degrees; the dotted ones rise far more steeply. The simulated tests rise steeply first, then "
     "flatten, and end at the printed 206, 201 and 232 degrees, the first two almost on each other.",
     provenance=Provenance.SIMULATED,
-    data=(CALIBRATION, TABLE_3_1, "materials/table_5_1.csv"),
 )
 def figure_3_10() -> Figure:
     """Draw free bending over pressure: model and simulated rig."""
@@ -224,7 +221,7 @@ def figure_3_10() -> Figure:
     rubbers = (("(E1)", 0.34 * MPa, 2.5, BLUE), ("(E2)", FX_PRO, 1.538, ORANGE))
     for name, modulus, tabled, colour in rubbers:
         for n, dash in ((ANGLE_POWER, "-"), (tabled, ":")):
-            finger = Finger(OPTIMUM, young_modulus=modulus, fractional_power=n)
+            finger = Finger(optimum(), young_modulus=modulus, fractional_power=n)
             angle, label = free_bending(finger, pressure) / DEG, f"Eq. (3.10) {name}, n = {n:g}"
             axes.plot(pressure / MPa, angle, color=colour, ls=dash, label=label)
     tested = np.linspace(0, 0.15, 11) * MPa
@@ -245,17 +242,16 @@ def figure_3_10() -> Figure:
     "with each step of 0.03 megapascal it curls further, until at 0.15 megapascal it has turned "
     "by 290 degrees.",
     provenance=Provenance.PRINTED,
-    data=(TABLE_3_1,),
 )
 def figure_3_11() -> Figure:
     """Draw the bent finger at each pressure."""
     drawn = Figure(figsize=(WIDTH, 4.2))
     panels = drawn.subplots(2, 3, sharex=True, sharey=True)
-    finger = Finger(OPTIMUM, fractional_power=ANGLE_POWER)
+    finger = Finger(optimum(), fractional_power=ANGLE_POWER)
     for axes, pressure in zip(panels.flat, np.linspace(0, 0.15, 6) * MPa, strict=True):
         angle = float(free_bending(finger, pressure))
         # The rubber that stretches lies above the neutral surface, which keeps its length.
-        draw_bent(axes, OPTIMUM, finger.length, angle, BLUE, f"{pressure / MPa:.2f} MPa")
+        draw_bent(axes, optimum(), finger.length, angle, BLUE, f"{pressure / MPa:.2f} MPa")
         axes.set_title(f"{pressure / MPa:.2f} MPa\n{angle / DEG:.0f} deg", fontsize=9.5)
         axes.set_aspect("equal")
         axes.set(xlim=(-50, 105), ylim=(-95, 35))
@@ -303,7 +299,6 @@ def _judged(drawn: Figure, axes: Any, value: str) -> None:
     "chamber give almost nothing, 0.04; those with six chambers 0.10, 0.35 or 0.48 depending on "
     "the groove; the simulated test ends at 0.36.",
     provenance=Provenance.SIMULATED,
-    data=(TABLE_3_1, *FEM[:2], CALIBRATION),
 )
 def figure_3_5() -> Figure:
     """Draw torque over pressure: variances, finite elements, simulated test."""
@@ -313,7 +308,7 @@ def figure_3_5() -> Figure:
     _variants(upper, pressure, lambda section: torque(section, pressure))
     upper.legend(loc="upper left", fontsize=8.5)
     upper.set(ylabel="torque (N m)", title="(a) model", ylim=(0, 0.56))
-    lower.plot(pressure / MPa, torque(OPTIMUM, pressure), color=BLUE, label="Eq. (3.4)")
+    lower.plot(pressure / MPa, torque(optimum(), pressure), color=BLUE, label="Eq. (3.4)")
     for label, found, dash in _judges():
         lower.plot(pressure / MPa, found.torque * pressure, color=GREEN, ls=dash, label=label)
     tested = np.linspace(0, 0.25, 11) * MPa
@@ -335,7 +330,6 @@ def figure_3_5() -> Figure:
     "steeply that they leave the panel, the more the deeper the grooves; those with one chamber "
     "reach 18 degrees; the simulated test rises steeply and then flattens, to 206.",
     provenance=Provenance.SIMULATED,
-    data=(TABLE_3_1, *FEM[:2], CALIBRATION),
 )
 def figure_3_6() -> Figure:
     """Draw bending angle over pressure: variances, finite elements, simulated test."""
@@ -349,7 +343,7 @@ def figure_3_6() -> Figure:
     _variants(upper, pressure, bent)
     upper.legend(loc="upper left", fontsize=8.5)
     upper.set(ylabel="angle (deg)", title="(a) model", ylim=(0, 320))
-    lower.plot(pressure / MPa, bent(OPTIMUM), color=BLUE, label="Eq. (3.10), n = 1.56")
+    lower.plot(pressure / MPa, bent(optimum()), color=BLUE, label="Eq. (3.10), n = 1.56")
     for label, found, dash in _judges():
         lower.plot(pressure / MPa, found.angle * pressure / DEG, color=GREEN, ls=dash, label=label)
     tested = np.linspace(0, 0.15, 11) * MPa
@@ -372,7 +366,6 @@ def figure_3_6() -> Figure:
     "shallower; the angle rises a little and then falls, from eighteen to three times the printed "
     "one.",
     provenance=Provenance.SIMULATED,
-    data=FEM[1:],
 )
 def figure_3_e() -> Figure:
     """Draw mesh convergence, and the influence of the grooves."""
@@ -391,7 +384,7 @@ def figure_3_e() -> Figure:
     upper.legend(fontsize=8.5)
     rows = list(read("groove_floor"))
     floors = [r.groove_floor / MM for r in rows]
-    push = torque(OPTIMUM, 1.0)
+    push = torque(optimum(), 1.0)
     full = 206 * DEG / (0.15 * MPa)
     lower.plot(floors, [r.torque / push for r in rows], "-o", color=BLUE, ms=4, label="torque")
     lower.plot(floors, [r.angle / full for r in rows], "--s", color=ORANGE, ms=4, label="angle")

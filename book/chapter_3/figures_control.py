@@ -1,6 +1,5 @@
 """Chapter 3, figures and tables: the regulator of Section 3.4."""
 
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -8,7 +7,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from book.chapter_3.regulators import FILE as GAINS
 from book.chapter_3.regulators import designed_on, regulator
 from book.chapter_4.identified_model import identified_model
 from book.companion.exhibit import figure, table
@@ -30,6 +28,7 @@ from softgrip.dynamics.second_order import full_state_space
 from softgrip.logs.reader import kept_log, read_log
 from softgrip.logs.steps import StepFigures, step_figures, step_log_figures
 from softgrip.provenance import Provenance
+from softgrip.reads import remembered
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
@@ -55,7 +54,6 @@ RUNS = 100
     "angle creeps up to 60 degrees in about three seconds; with the faster design it is there in "
     "about 1.3 seconds, its command at full speed one way and then the other.",
     provenance=Provenance.SIMULATED,
-    data=(*(f"simulated/{name}.csv" for name in LOGS), GAINS),
 )
 def figure_3_12(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw both regulators on their models and on a rig; ``logs`` gives two of another rig."""
@@ -124,7 +122,7 @@ def figure_3_c() -> Figure:
     return drawn
 
 
-@lru_cache(maxsize=2)
+@remembered
 def _settling_over_p(q2: float) -> Any:
     rows = []
     for p in np.logspace(0, 6, 37):
@@ -142,7 +140,6 @@ def _settling_over_p(q2: float) -> Any:
     alt="Three rising curves, for 2, 5 and 10 percent, from about 0.6 seconds at 10 degrees to 1.4 "
     "at 90; they cross 0.8 seconds between 20 and 30 degrees. The dashed curve lies close above.",
     provenance=Provenance.SIMULATED,
-    data=("simulated/push-a.csv",),
 )
 def figure_3_d() -> Figure:
     """Draw the bound on any controller, and the regulator, over the step."""
@@ -171,7 +168,6 @@ def figure_3_d() -> Figure:
     "error, and names neither step nor criterion. The rig is the *simulated* one; of its 100 runs "
     "the median is given, and between which values 90 % of them lie.",
     provenance=Provenance.SIMULATED,
-    data=(*(f"simulated/{name}.csv" for name in LOGS), GAINS),
 )
 def table_3_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
     """Tabulate settling times under each criterion; ``logs`` gives two of another rig."""
@@ -237,7 +233,6 @@ def _spread(values: Any, form: str) -> str:
     "criterion: on the model that is identified from the *simulated* rig's logs, and with the "
     "printed frequency and damping ratio in it, its static gain kept.",
     provenance=Provenance.SIMULATED,
-    data=("simulated/push-a.csv",),
 )
 def table_3_d() -> pd.DataFrame:
     """Tabulate the largest step that can settle in the printed time."""

@@ -1,6 +1,5 @@
 """What the sliders of Chapter 3 draw."""
 
-from functools import lru_cache
 from textwrap import wrap
 
 import matplotlib as mpl
@@ -21,6 +20,7 @@ from softgrip.control.limited_lqr import limited_loop
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import Weights, lqr_gain
 from softgrip.control.step_metrics import settling_time
+from softgrip.reads import remembered
 from softgrip.units import DEG, MM, MPa
 
 
@@ -105,7 +105,7 @@ def _refused(message: str) -> Figure:
 DURATION = 4.0
 
 
-@lru_cache(maxsize=1)
+@remembered
 def _model() -> IdentifiedModel:
     # To identify it takes as long as all else that a frame may take.
     return identified_model()

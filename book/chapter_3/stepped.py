@@ -1,7 +1,6 @@
 """The simulated rig with a finger of another section, and the frequency that its steps tell."""
 
 from dataclasses import replace
-from functools import cache
 
 from softgrip.actuator.bending import modified_moment
 from softgrip.actuator.frequency import rubber_mass
@@ -10,6 +9,7 @@ from softgrip.actuator.printed import table_3_2
 from softgrip.actuator.section import Section, chamber_area, check_section, torque
 from softgrip.dynamics.identify import Identified, identify
 from softgrip.errors import InvalidInputError
+from softgrip.reads import remembered
 from softgrip.simulator.calibration import OPERATING_ANGLE, design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.parameters import RigParameters
@@ -66,7 +66,7 @@ def identified_step(rig: RigParameters, *, angle: float = OPERATING_ANGLE) -> Id
     return identify(test.time, test.pressure, test.angle, initial_input=0.0)
 
 
-@cache
+@remembered
 def identified_row(row: int) -> Identified:
     """Identify simulated steps to 60 deg of the section of a row of Table 3.2, 1 to 4."""
     return identified_step(rig_with(table_3_2()[row - 1].section))

@@ -2,7 +2,6 @@
 
 import pandas as pd
 
-from book.chapter_3.figures import TABLE_3_1, TABLE_3_2
 from book.chapter_3.numbers import estimated_frequency, rubber_weight
 from book.chapter_3.stepped import identified_row
 from book.companion.exhibit import table
@@ -38,7 +37,6 @@ def _mm(section: Section) -> dict[str, str]:
     "bending angle by finite elements of six chambers with grooves down to the neutral surface, as "
     "parts of the optimum's.",
     provenance=Provenance.SIMULATED,
-    data=(TABLE_3_1, "fem/table_3_1.csv"),
 )
 def table_3_1_sums() -> pd.DataFrame:
     """Tabulate the sections of Table 3.1 with the objective."""
@@ -69,7 +67,6 @@ def table_3_1_sums() -> pd.DataFrame:
     "second-order identification of the mean of seven steps to 60 deg, with its 95 % interval and "
     "its poles.",
     provenance=Provenance.SIMULATED,
-    data=(TABLE_3_2, "calibration/simulated_rig.csv"),
 )
 def table_3_2_recomputed() -> pd.DataFrame:
     """Tabulate the bands, their best sections and the frequencies of steps."""
@@ -100,7 +97,6 @@ def table_3_2_recomputed() -> pd.DataFrame:
     "as the table states them with n = 1, and with the weight read as kilograms, 94 mm in the "
     "place of 0.94 m and n = 1.045; and the rubber's own weight (N) beside the printed one.",
     provenance=Provenance.PRINTED,
-    data=("actuator/table_3_3.csv",),
 )
 def table_3_3_recomputed() -> pd.DataFrame:
     """Tabulate the frequencies of Table 3.3."""
@@ -125,7 +121,6 @@ def table_3_3_recomputed() -> pd.DataFrame:
     "as printed. Four bend further and two push harder than this design; none of them was designed "
     "for a natural frequency.",
     provenance=Provenance.PRINTED,
-    data=("actuator/table_3_4.csv",),
 )
 def table_3_4() -> pd.DataFrame:
     """Tabulate the comparison with other designs."""
@@ -148,7 +143,6 @@ def table_3_4() -> pd.DataFrame:
     "bound to be within 0.001 % of the best. The last column is the best section in whole steps of "
     "a mould.",
     provenance=Provenance.PRINTED,
-    data=(TABLE_3_1,),
 )
 def table_3_a() -> pd.DataFrame:
     """Tabulate certified optima over n and bounds."""

@@ -8,7 +8,6 @@ from matplotlib.figure import Figure
 
 from book.chapter_4.controllers import own_loop
 from book.chapter_4.identified_model import identified_model
-from book.chapter_4.pid_gains import FILE as GAINS
 from book.companion.exhibit import figure
 from book.companion.style import GREY, LINEAR, LUDWICK, MEASURED, OTHER, PRINTED, VERMILION, WIDTH
 from softgrip.control.loop import SPEED_LIMIT
@@ -78,7 +77,6 @@ def figure_4_3() -> Figure:
     "model runs straight and stays far below it at high pressure, the modified model follows it "
     "closely, and the filter lags a little behind.",
     provenance=Provenance.SIMULATED,
-    data=tuple(f"simulated/{name}.csv" for name in PUSHES),
 )
 def figure_4_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the three models against four pushes; ``logs`` puts others in their place."""
@@ -123,7 +121,6 @@ def _draw_push(axes: Any, path: Path | str, name: str) -> None:
     "printed filter goes on falling in a straight line; the other rises by a third within three "
     "seconds and is then level, in a band that widens.",
     provenance=Provenance.SIMULATED,
-    data=("simulated/push-a.csv", HOLD),
 )
 def figure_4_a() -> Figure:
     """Draw the capacity by the printed filter and by the one that measures pressure."""
@@ -176,7 +173,6 @@ def _draw_capacity(axes: Any, time: Any, angle: Any, seen: Any, std: Any, gain: 
     "second, on the simulated rig it swings for ten seconds. Controller (b) rises in about two "
     "seconds on both and stays near 60 degrees.",
     provenance=Provenance.SIMULATED,
-    data=(*(f"simulated/{name}.csv" for name in STEPS), GAINS),
 )
 def figure_4_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw both controllers on their models and on a rig; ``logs`` gives two of another rig."""
@@ -211,7 +207,6 @@ def _draw_log(axes: Any, path: Path | str, *, lw: float | None) -> None:
     alt="The reference climbs to 60 degrees in steps and comes down again; the angle follows it as "
     "a smooth hill, about a second late.",
     provenance=Provenance.SIMULATED,
-    data=("simulated/staircase.csv", GAINS),
 )
 def figure_4_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the staircase; ``logs`` gives one of another rig."""
@@ -232,7 +227,6 @@ def figure_4_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     alt="A curve that leaves the origin flat and then climbs; at 0.2 seconds it is still below the "
     "two degrees of the sensor's error.",
     provenance=Provenance.SIMULATED,
-    data=("simulated/push-a.csv",),
 )
 def figure_4_c() -> Figure:
     """Draw the farthest angle that can be reached over time."""

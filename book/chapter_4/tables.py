@@ -7,7 +7,6 @@ import numpy as np
 import pandas as pd
 
 from book.chapter_4.controllers import own_step
-from book.chapter_4.pid_gains import FILE as GAINS
 from book.companion.exhibit import table
 from softgrip.logs.reader import kept_log, read_log
 from softgrip.logs.steps import step_log_figures
@@ -18,7 +17,6 @@ from softgrip.pump.sizing import Sizing, sizings
 from softgrip.simulator.calibration_table import KEPT
 from softgrip.units import DEG, ML, MM, REV, MPa
 
-CALIBRATION = "calibration/simulated_rig.csv"
 FINGER = Finger(
     gauge_pressure=0.15 * MPa,
     volume_at_rest=26.6 * ML,
@@ -100,7 +98,6 @@ def _lacking(judged: Sizing) -> str:
     caption="What the simulated rig is tuned to, what was only checked, and what is assumed. What "
     "it was calibrated to is never claimed as found.",
     provenance=Provenance.SIMULATED,
-    data=(CALIBRATION,),
 )
 def table_4_b() -> pd.DataFrame:
     """Tabulate the calibration of the simulated rig."""
@@ -125,7 +122,6 @@ def table_4_b() -> pd.DataFrame:
     "and on the *simulated* rig. The dissertation prints 5 and 2.5 s for its simulation, 3.95 and "
     "2.38 s for its rig, and errors of 5 and 2 deg, and does not name the criterion.",
     provenance=Provenance.SIMULATED,
-    data=("simulated/pid-actuator.csv", "simulated/pid-full.csv", GAINS),
 )
 def table_4_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
     """Tabulate settling times of both controllers under each criterion; ``logs`` gives two."""

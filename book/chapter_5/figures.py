@@ -1,6 +1,5 @@
 """Figures of Chapter 5."""
 
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -17,16 +16,14 @@ from softgrip.materials.fitting import LONGEST_STRAINS, Fitting, kept
 from softgrip.materials.leave_out import RIVALS, leave_k_out
 from softgrip.materials.table import HELD_OUT, Material, fractional_powers, properties, table_5_1
 from softgrip.provenance import Provenance
+from softgrip.reads import remembered
 from softgrip.units import MPa
 
-TABLE = "materials/table_5_1.csv"
-FITS = "materials/ludwick_fits.csv"
-FACTS = "materials/tensile_facts.csv"
 TESTS = "ten tensile tests (public, each checked against its sha256 in softgrip.materials.database)"
 BEST = Fitting()
 
 
-@cache
+@remembered
 def _measured(name: str) -> tuple[Floats, Floats] | None:
     """Return strain and true stress up to the largest force, or None where no test is at hand."""
     if not tensile.available():
@@ -57,7 +54,6 @@ def draw_curves(axes: Any, material: Material, power: float) -> None:
     "on it for Mold Star 16 FAST and 20T, leaves it upwards for the three stiffer Dragon Skins and "
     "SORTA-Clear 40, and stays far below it at large strains for FX Pro and the three Ecoflexes.",
     provenance=Provenance.PUBLIC,
-    data=(TABLE, FACTS),
     sources=TESTS,
 )
 def figure_5_1() -> Figure:
@@ -85,7 +81,6 @@ def figure_5_1() -> Figure:
     alt="Three scatter plots of ten points. n rises with Young's modulus and, most clearly, with "
     "tensile strength; with mixed viscosity it rises too, but loosely.",
     provenance=Provenance.PRINTED,
-    data=(TABLE,),
 )
 def figure_5_2() -> Figure:
     """Draw n over Young's modulus, mixed viscosity and tensile strength."""
@@ -117,7 +112,6 @@ def figure_5_2() -> Figure:
     "strains up to about six are used; for Dragon Skin 20, Dragon Skin 30 and SORTA-Clear 40 only "
     "where the fit stops at a strain of two or three.",
     provenance=Provenance.PUBLIC,
-    data=(FITS, TABLE, FACTS),
 )
 def figure_5_a() -> Figure:
     """Draw n over the longest strain of the fit."""
@@ -155,7 +149,6 @@ def figure_5_a() -> Figure:
     alt="Predicted over printed exponent. The points of Eq. (5.8) scatter about the diagonal; "
     "Ecoflex 00-10 is predicted far too low. The means lie on a nearly flat line.",
     provenance=Provenance.PRINTED,
-    data=(TABLE,),
 )
 def figure_5_b() -> Figure:
     """Draw leave-one-out predictions over the printed values."""

@@ -15,7 +15,6 @@ from softgrip.units import DEG
 
 COLOURS = {"linear": (LINEAR, "-."), "ludwick": (LUDWICK, "--")}
 WORDS = {"linear": "linear (5.17)", "ludwick": "Ludwick (5.16)"}
-SWEEP = step_sweep.KEPT.file
 BOUND = 3.0
 """deg: the upper end of what Section 5.4 puts down to the material itself."""
 
@@ -67,7 +66,6 @@ WAY = (
     "90 degrees Ludwick's model still does, while the linear one, fitted at 60, climbs to about "
     "160 degrees.",
     provenance=Provenance.SIMULATED,
-    data=logs_of("Design 1"),
 )
 def figure_5_6(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the tests of Design 1; ``logs`` gives other runs, those of the fitted test first."""
@@ -81,7 +79,6 @@ def figure_5_6(logs: tuple[Path | str, ...] = ()) -> Figure:
     alt="Two panels of angle over time. At 60 degrees both models lie on the mean of the runs. At "
     "90 degrees Ludwick's model ends a few degrees below it, the linear one some twenty above.",
     provenance=Provenance.SIMULATED,
-    data=logs_of("Design 2"),
 )
 def figure_5_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the tests of Design 2; ``logs`` as for `figure_5_6`."""
@@ -99,7 +96,6 @@ def figure_5_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     "steps passes three degrees at a step of about 40. Identified anew at each step, the linear "
     "model stays below three degrees beyond 120.",
     provenance=Provenance.SIMULATED,
-    data=(SWEEP,),
 )
 def figure_5_c() -> Figure:
     """Draw the errors of the models over the size of the step."""

@@ -8,7 +8,6 @@ answer the measured pressure of either test. `step_protocols` tries others.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from typing import Literal
 
@@ -19,6 +18,7 @@ from softgrip.dynamics.ludwick_fit import FittedFinger, fit_finger
 from softgrip.errors import UnknownNameError
 from softgrip.logs.repeated_steps import StepTest, read_step_test
 from softgrip.provenance import data_file
+from softgrip.reads import remembered
 from softgrip.simulator.calibration import TORQUE_PER_PRESSURE
 from softgrip.units import DEG, MM
 
@@ -69,7 +69,7 @@ def step_finger(design: str) -> StepFinger:
     return FINGERS[design]
 
 
-@cache
+@remembered
 def kept_test(design: str, angle: int) -> StepTest:
     """Read the seven kept runs of a step to 60 or 90 deg."""
     return read_step_test([data_file(name).path for name in step_finger(design).paths(angle)])
@@ -86,7 +86,7 @@ def fit_test(test: StepTest, fractional_power: float | None) -> FittedFinger:
     )
 
 
-@cache
+@remembered
 def identified_at(design: str, kind: Kind, angle: int = 60) -> FittedFinger:
     """Fit a model to the kept test at an angle, Ludwick's with the estimated power."""
     power = 1.0 if kind == "linear" else step_finger(design).estimated
@@ -98,7 +98,7 @@ def rms_error(model: Floats, test: StepTest) -> float:
     return float(np.sqrt(np.mean((model - test.angle) ** 2)))
 
 
-@cache
+@remembered
 def step_test_error(design: str, kind: Kind, angle: int, *, identified: int = 60) -> float:
     """Return the RMS error, deg, of a model identified at one angle and held against another.
 

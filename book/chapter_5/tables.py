@@ -5,7 +5,7 @@ from math import inf
 import numpy as np
 import pandas as pd
 
-from book.chapter_5.figures import FACTS, FITS, TABLE, TESTS
+from book.chapter_5.figures import TESTS
 from book.companion.exhibit import table
 from book.companion.verdict import ledger, verdict_of
 from softgrip.materials import tensile
@@ -26,7 +26,6 @@ BEST = Fitting()
     "the tests' stress at 100 % strain; viscosity (Pa s); strength (MPa) as printed beside the "
     "tests' largest stress.",
     provenance=Provenance.PUBLIC,
-    data=(TABLE, FACTS),
     sources=TESTS,
 )
 def table_5_1_beside_tests() -> pd.DataFrame:
@@ -60,7 +59,6 @@ def table_5_1_beside_tests() -> pd.DataFrame:
     caption="The two held-out materials: true and estimated fractional power, and the error that "
     "the summary states. The recomputed true value is that of Table 5.1.",
     provenance=Provenance.PRINTED,
-    data=(TABLE,),
 )
 def table_5_2() -> pd.DataFrame:
     """Tabulate what is printed of the two held-out materials, and what comes of it."""
@@ -80,7 +78,6 @@ def table_5_2() -> pd.DataFrame:
     caption="Ways to read n from a curve, held against the printed column: the five best of 96, "
     "and the same choices as the best with one of them changed.",
     provenance=Provenance.PUBLIC,
-    data=(FITS, TABLE),
 )
 def table_5_a() -> pd.DataFrame:
     """Tabulate the best ways of fitting and their neighbours."""
@@ -113,7 +110,6 @@ def table_5_a() -> pd.DataFrame:
     caption="Errors of n when materials are predicted that the fit has not seen: each one, and "
     "each two, of the ten held out in turn.",
     provenance=Provenance.PRINTED,
-    data=(TABLE,),
 )
 def table_5_b() -> pd.DataFrame:
     """Tabulate leave-one-out and leave-two-out errors of three models."""

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from book.chapter_5 import step_protocols as step_test_protocols
-from book.chapter_5.figures_dynamics import WORDS, logs_of
+from book.chapter_5.figures_dynamics import WORDS
 from book.chapter_5.numbers import PRINTED_RMS
 from book.chapter_5.step_models import FINGERS, KINDS, identified_at
 from book.chapter_5.step_protocols import SIZE
@@ -43,7 +43,6 @@ def _interval(found: Estimate) -> str:
     "suppose the model true: mass (N s^2), damping (N s), stiffness (N), all for the force by "
     "pressure of Figure 3.9; the fit in percent; and the stiffness by Eq. (5.10) or (5.13).",
     provenance=Provenance.SIMULATED,
-    data=(*logs_of("Design 1")[:7], *logs_of("Design 2")[:7]),
 )
 def table_5_d() -> pd.DataFrame:
     """Tabulate the identified parameters beside the stiffness that the text states."""
@@ -79,7 +78,6 @@ def table_5_d() -> pd.DataFrame:
     "step to 30 deg. Step: driven by a step of the force that holds the set point in the place of "
     "the measured pressure. Stated K: stiffness by Eq. (5.10) and (5.13).",
     provenance=Provenance.SIMULATED,
-    data=(step_test_protocols.KEPT.file,),
 )
 def table_5_e() -> pd.DataFrame:
     """Tabulate the eight errors under each protocol."""

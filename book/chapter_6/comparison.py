@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
 
 import numpy as np
 
@@ -20,6 +19,7 @@ from softgrip.control.step_metrics import final_value, settling_time
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.gripper.robustness import tolerated_uncertainty
 from softgrip.gripper.synchronization import synchronization_error
+from softgrip.reads import remembered
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import Driven, drive
 from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION
@@ -95,7 +95,7 @@ def judge(run: Driven, targets: Floats) -> Judged:
     )
 
 
-@cache
+@remembered
 def robustness_margin(name: str) -> float | None:
     """Return the `tolerated_uncertainty` of one of `ENTRIES` about `own_model`; None in open loop.
 
@@ -125,7 +125,7 @@ RIGS: dict[str, Callable[[], RigParameters]] = {
 """The simulated gripper, and what it would be without this or that."""
 
 
-@cache
+@remembered
 def judged(name: str, rig: str = "as it is", *, runs: int = RUNS, seed: int = SEED) -> Judged:
     """Run and judge one of `ENTRIES` on one of `RIGS`, targets being those of its own model."""
     parameters = RIGS[rig]()

@@ -1,7 +1,6 @@
 """The controllers of Chapter 6 for the simulated gripper, designed on its own logs."""
 
 from dataclasses import replace
-from functools import cache
 from typing import Literal
 
 import control
@@ -21,6 +20,7 @@ from softgrip.gripper.reach import project
 from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
 from softgrip.logs.fingers import identified_gripper, read_runs
 from softgrip.provenance import data_file
+from softgrip.reads import remembered
 from softgrip.simulator.gripper_calibration import push_commands
 from softgrip.simulator.gripper_parameters import LEFT, RIGHT, TRAVEL, printed_gripper
 from softgrip.units import DEG
@@ -35,7 +35,7 @@ WEIGHTS = {"LQR": Weights(), "LQR faster": Weights(p=1000.0, q=(1.0, 0.03, 0.0))
 """Of the regulators: those of Eq. (3.29), and those of Chapter 3's faster one."""
 
 
-@cache
+@remembered
 def own_model() -> Gripper:
     """Return P(s) as the gripper's logs in open loop identify it, input in rad/s."""
     return identified_gripper(read_runs([data_file(name).path for name in OPEN_LOGS]))
@@ -55,7 +55,7 @@ def target_angles(model: Gripper) -> Floats:
     return project(model, [WANTED] * len(model.fingers)).reached
 
 
-@cache
+@remembered
 def best_command(model: Gripper) -> OptimalFeedforward:
     """Return the commands within the motor's limit that settle the model as early as any can.
 

@@ -72,7 +72,6 @@ WEIGHT = (
     "the identified models differ by up to seventeen percent, the points of the records lie above "
     "one from four radians per second on.",
     provenance=Provenance.SIMULATED,
-    data=names_of("open"),
 )
 def figure_6_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw repeated steps and their deviations; ``logs`` gives runs of another gripper."""
@@ -111,7 +110,6 @@ def figure_6_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     "lie above those of the fast ones. The two histograms of errors at rest are alike, each with a "
     "standard deviation of one and a half degrees.",
     provenance=Provenance.SIMULATED,
-    data=(*names_of("open"), *names_of("low-speed"), gripper_speed.KEPT.file),
 )
 def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw steps at two speeds; ``logs`` gives other runs, those at high speed first.
@@ -158,7 +156,6 @@ def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     "three seconds; with that for 4.8 per second they swing beyond and back. A push moves the left "
     "finger by two degrees and it comes back within a second.",
     provenance=Provenance.SIMULATED,
-    data=tuple(name for kind in ("open", "fast", "slow", "push") for name in names_of(kind)),
 )
 def figure_6_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the three experiments; ``logs`` gives others: open, 4.8/s, 2/s, pushed."""

@@ -1,7 +1,5 @@
 """Chapter 6, figures and tables: many grippers at once, and the best feedforward in the limit."""
 
-from functools import lru_cache
-
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
@@ -30,6 +28,7 @@ from softgrip.gripper.plant import PRINTED
 from softgrip.gripper.reach import project
 from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
 from softgrip.provenance import Provenance
+from softgrip.reads import remembered
 from softgrip.units import DEG, REV
 
 PAIRS, SEED = 10_000, 6
@@ -50,7 +49,7 @@ def printed_loop(name: str) -> ControllerMatrices:
     return unaware(controller_matrices(PRINTED, mean_inverse(PRINTED), low_pass))
 
 
-@lru_cache
+@remembered
 def outcome(name: str, *, pairs: int = PAIRS) -> Outcome:
     """Return what comes of drawn pairs, or of the nominal one alone with ``pairs=1``."""
     grippers = draw_grippers(PRINTED, pairs, seed=SEED) if pairs > 1 else GripperBatch.of(PRINTED)
@@ -72,7 +71,6 @@ def outcome(name: str, *, pairs: int = PAIRS) -> Outcome:
     "at rest is three degrees with two fingers and six with five; the difference on the way is 10 "
     "and 29 percent, and grows faster where the time begins to bind.",
     provenance=Provenance.SIMULATED,
-    data=(finger_count.KEPT.file,),
 )
 def figure_6_d() -> Figure:
     """Draw what more fingers and more spread cost."""

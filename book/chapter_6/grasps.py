@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from softgrip.arrays import Floats
 from softgrip.control.rig_controller import CommandSequence, RigController
 from softgrip.gripper.grasp import DiscBetweenFingers, ElasticDisc
 from softgrip.gripper.internal_model import PERIOD
+from softgrip.reads import remembered
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
 from softgrip.simulator.gripper_calibration import push_commands
@@ -69,7 +69,7 @@ class Grasp:
         return float(abs(first[0] - first[1])[0]) if all(map(len, first)) else float("inf")
 
 
-@cache
+@remembered
 def grasp(stiffness: float, by: str, *, equal: bool = False, step: float = STEP) -> Grasp:
     """Simulate a grasp by the median gripper.
 

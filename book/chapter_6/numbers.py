@@ -1,7 +1,5 @@
 """Recomputation of the numbers printed in Chapter 6, by linear model and on the rig."""
 
-from functools import cache
-
 import control
 import numpy as np
 
@@ -20,6 +18,7 @@ from softgrip.gripper.reach import direction, project
 from softgrip.gripper.shaping_filter import FAST, filter_state_space
 from softgrip.gripper.synchronization import synchronization_error
 from softgrip.materials.table import material
+from softgrip.reads import remembered
 from softgrip.units import DEG, ML, REV, MPa
 
 
@@ -85,7 +84,7 @@ def filter_coefficient(target: str, part: str, power: int, poles: int = 2) -> fl
     return float((top if part == "num" else low)[len(low) - 1 - power])
 
 
-@cache
+@remembered
 def shaped(target: str, poles: int = 2) -> control.StateSpace:
     """Return the re-derived H for a target loop, compared from 0.1 to 100 rad/s."""
     low_pass = filter_state_space(*FILTERS[target])

@@ -1,7 +1,5 @@
 """The numbers of Section 6.4 as the simulated gripper gives them."""
 
-from functools import cache
-
 import numpy as np
 
 from book.chapter_6.controllers import gripper_controller, own_model, target_angles
@@ -20,6 +18,7 @@ from softgrip.gripper.uncertainty import (
 from softgrip.logs.fingers import GripperLogs, each_identified, read_runs
 from softgrip.provenance import data_file
 from softgrip.pump.finger import Finger, swept_volume
+from softgrip.reads import remembered
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
 from softgrip.simulator.gripper_calibration import step_identifies
@@ -42,13 +41,13 @@ def ends(kind: str) -> Floats:
     return np.asarray(final_value(logs.time, logs.angles.mean(axis=0), window=1.0))
 
 
-@cache
+@remembered
 def identified(kind: str) -> list[list[FingerDynamics]]:
     """Return what each of the kept logs identifies, ``found[finger][run]``."""
     return each_identified(logs_of(kind))
 
 
-@cache
+@remembered
 def identified_without_noise() -> list[list[FingerDynamics]]:
     """Return what the runs of the open-loop logs identify without their sensors."""
     return step_identifies(printed_gripper(), TRAVEL, runs=RUNS, seed=SEED)[1]
@@ -58,7 +57,7 @@ WEIGHED = np.geomspace(0.5, 80, 60)
 """Frequencies at which weights are compared with deviations, rad/s."""
 
 
-@cache
+@remembered
 def largest_weight(speed: float) -> float | None:
     """Return the largest W_T of Eq. (6.18) for the left finger, pushed at a motor speed.
 
@@ -92,7 +91,7 @@ def band(kind: str) -> tuple[float, float]:
     return excited_band(logs_of(kind).commands[0, 1:], PERIOD, share=BAND_SHARE)
 
 
-@cache
+@remembered
 def push_response(*, runs: int = 50) -> tuple[Floats, Floats]:
     """Return by how much a push on the left finger moves both, against the same runs without it.
 

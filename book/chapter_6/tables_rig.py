@@ -5,7 +5,6 @@ import pandas as pd
 
 from book.chapter_6 import speed as gripper_speed
 from book.chapter_6.comparison import CRITERIA, ENTRIES, RIGS, judged, robustness_margin
-from book.chapter_6.logs import names_of
 from book.chapter_6.results import (
     bounds,
     desired,
@@ -19,8 +18,6 @@ from book.companion.exhibit import table
 from softgrip.arrays import Floats
 from softgrip.provenance import Provenance
 from softgrip.units import DEG, REV
-
-OPEN = names_of("open")
 
 
 def middle_and_ends(values: Floats, scale: float = 1.0, digits: int = 1) -> str:
@@ -44,7 +41,6 @@ def middle_and_ends(values: Floats, scale: float = 1.0, digits: int = 1) -> str:
     "model is the one that the logs in open loop identify; with *on (6.26)* the poles are those "
     "printed.",
     provenance=Provenance.SIMULATED,
-    data=OPEN,
 )
 def table_6_h() -> pd.DataFrame:
     """Tabulate the controllers."""
@@ -74,7 +70,6 @@ def table_6_h() -> pd.DataFrame:
     "Last line: half a second of a fifth of the air's torque, with the filter for 2/s, median of "
     "50 runs.",
     provenance=Provenance.SIMULATED,
-    data=OPEN,
 )
 def table_6_i() -> pd.DataFrame:
     """Tabulate what is identified beside what is printed."""
@@ -105,7 +100,6 @@ def table_6_i() -> pd.DataFrame:
     "motor's limit of 5 rev/s, without the noise of the flex sensors, without both. The text has "
     "0.7 s with the filter for 4.8/s and 1.1 s with that for 2/s, and no criterion.",
     provenance=Provenance.SIMULATED,
-    data=OPEN,
 )
 def table_6_j() -> pd.DataFrame:
     """Tabulate settling times by criterion."""
@@ -133,7 +127,6 @@ def table_6_j() -> pd.DataFrame:
     "second order, fitted by Eq. (6.18) to the models that seven runs identify without noise; a "
     "push that is slower than the finger identifies none.",
     provenance=Provenance.SIMULATED,
-    data=(gripper_speed.KEPT.file,),
 )
 def table_6_k() -> pd.DataFrame:
     """Tabulate the spread over the speed."""

@@ -10,7 +10,7 @@ from typing import Literal, TypeVar
 
 from softgrip.errors import InvalidInputError, UnknownNameError
 from softgrip.logs.reader import read_log
-from softgrip.provenance import DataFile, Provenance, data_file, describe
+from softgrip.provenance import Provenance
 
 Kind = Literal["figure", "table"]
 Make = TypeVar("Make", bound=Callable[..., object])
@@ -26,15 +26,16 @@ class Exhibit:
     caption: str
     alt: str
     make: Callable[..., object]
-    data: tuple[DataFile, ...]
     provenance: Provenance
-    """Class of what is shown; the data files have their own."""
+    """Class of what is shown; the data files that it is made from have their own."""
     sources: str = ""
     """Data that are not files of the project, in words."""
     drawing: bool = False
     """Whether it is a drawing, such as a block diagram, with no numbers to give as CSV."""
     repairs: tuple[str, ...] = ()
     """What was mended or is missing in the reader's own logs, one sentence each."""
+    logs: tuple[Path, ...] = ()
+    """What a reader put in the place of the book's logs."""
 
     @property
     def name(self) -> str:
@@ -76,15 +77,13 @@ def _register(
     number: str,
     caption: str,
     alt: str,
-    data: tuple[str, ...],
     provenance: Provenance,
     sources: str,
     drawing: bool = False,
 ) -> Callable[[Make], Make]:
     def keep(make: Make) -> Make:
-        files = tuple(data_file(name) for name in data)
         EXHIBITS[kind, number] = Exhibit(
-            kind, number, caption, alt, make, files, provenance, sources, drawing
+            kind, number, caption, alt, make, provenance, sources, drawing
         )
         return make
 
@@ -97,7 +96,6 @@ def figure(
     caption: str,
     alt: str,
     provenance: Provenance,
-    data: tuple[str, ...] = (),
     sources: str = "",
     drawing: bool = False,
 ) -> Callable[[Make], Make]:
@@ -113,26 +111,19 @@ def figure(
         The picture in words, for those who do not see it.
     provenance
         Class of what is drawn.
-    data
-        The files below ``data/`` that it is drawn from.
     sources
-        Other data that it is drawn from, in words.
+        Data that are not files below ``data/``, in words; those are found out when it is made.
     drawing
         Whether no numbers stand behind it.
     """
-    return _register("figure", number, caption, alt, data, provenance, sources, drawing)
+    return _register("figure", number, caption, alt, provenance, sources, drawing)
 
 
 def table(
-    number: str,
-    *,
-    caption: str,
-    provenance: Provenance,
-    data: tuple[str, ...] = (),
-    sources: str = "",
+    number: str, *, caption: str, provenance: Provenance, sources: str = ""
 ) -> Callable[[Make], Make]:
     """Register a function that returns a pandas DataFrame; parameters as for `figure`."""
-    return _register("table", number, caption, "", data, provenance, sources)
+    return _register("table", number, caption, "", provenance, sources)
 
 
 def _register_chapter(chapter: str) -> None:
@@ -166,7 +157,7 @@ def exhibit(title: str) -> Exhibit:
 
 
 def with_logs(item: Exhibit, logs: Sequence[Path | str]) -> Exhibit:
-    """Return an exhibit made from other logs, which are then its data and its provenance.
+    """Return an exhibit made from other logs, of which it then has the provenance.
 
     It says what the reader of logs mended in them, and where rows are missing.
 
@@ -179,16 +170,20 @@ def with_logs(item: Exhibit, logs: Sequence[Path | str]) -> Exhibit:
     """
     if "logs" not in signature(item.make).parameters or not logs:
         raise InvalidInputError("logs", expected=f"none for {item.title}", got=[*map(str, logs)])
-    data = tuple(describe(Path(log)) for log in logs)
-    made = partial(item.make, logs=tuple(logs))
+    paths = tuple(Path(log) for log in logs)
+    made = update_wrapper(partial(item.make, logs=paths), item.make)
+    read = [read_log(path) for path in paths]
+    repairs = [
+        f"{path.name}: {words}"
+        for path, log in zip(paths, read, strict=True)
+        for words in log.repairs
+    ]
     return replace(
         item,
-        make=update_wrapper(made, item.make),
-        data=data,
-        provenance=data[0].provenance,
-        repairs=tuple(
-            f"{Path(log).name}: {words}" for log in logs for words in read_log(log).repairs
-        ),
+        make=made,
+        logs=paths,
+        provenance=read[0].header.provenance,
+        repairs=tuple(repairs),
     )
 
 

@@ -22,7 +22,7 @@ def main() -> None:
     parser.add_argument("--into", type=Path, default=Path("book/_build/figures"), metavar="FOLDER")
     asked = parser.parse_args()
     for item in [exhibit(_title(name)) for name in asked.names] or exhibits():
-        _, seconds = save(item, asked.into)
+        seconds = save(item, asked.into).seconds
         print(f"{item.title:12} {seconds:6.2f} s  {asked.into / item.name}")
 
 

@@ -1,5 +1,6 @@
 """Exhibits as files that are the same, to the bit, from run to run; and their numbers as CSV."""
 
+from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 from time import perf_counter
@@ -13,14 +14,31 @@ from matplotlib.figure import Figure
 
 from book.companion.exhibit import Exhibit
 from book.companion.style import style
+from softgrip.provenance import DataFile, data_folder, describe
+from softgrip.reads import recorded
 
 
-def make(exhibit: Exhibit) -> tuple[Any, float]:
-    """Make an exhibit in the book's style; return it with the seconds that it took."""
+@dataclass(frozen=True)
+class Made:
+    """An exhibit made: a Figure or DataFrame, the seconds that it took, and the files it read."""
+
+    shown: Any
+    seconds: float
+    data: tuple[DataFile, ...]
+    """The reader's logs, and what was opened below ``data/``: also by those who remembered it."""
+
+
+def make(exhibit: Exhibit) -> Made:
+    """Make an exhibit in the book's style."""
     start = perf_counter()
-    with style():
-        made = exhibit.make()
-    return made, perf_counter() - start
+    with style(), recorded() as files:
+        shown = exhibit.make()
+    seconds = perf_counter() - start
+    logs = {log.resolve(): log for log in exhibit.logs}
+    ours = data_folder().resolve()
+    named = [log for path, log in logs.items() if path in files]
+    named += sorted(path for path in files - set(logs) if path.is_relative_to(ours))
+    return Made(shown, seconds, tuple(describe(path) for path in named))
 
 
 def _points(axes: Any) -> list[tuple[str, Any, Any]]:
@@ -81,22 +99,16 @@ def svg(figure: Figure) -> bytes:
     return file.getvalue()
 
 
-def save(exhibit: Exhibit, folder: Path) -> tuple[Any, float]:
-    """Make an exhibit and write it: figures as SVG and CSV, tables as CSV, drawings as SVG.
-
-    Returns
-    -------
-    tuple
-        The Figure or DataFrame, and the seconds that it took to make.
-    """
-    made, seconds = make(exhibit)
+def save(exhibit: Exhibit, folder: Path) -> Made:
+    """Make an exhibit and write it: figures as SVG and CSV, tables as CSV, drawings as SVG."""
+    made = make(exhibit)
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / exhibit.name
-    table = made
+    table = made.shown
     if exhibit.kind == "figure":
-        path.with_suffix(".svg").write_bytes(svg(made))
+        path.with_suffix(".svg").write_bytes(svg(made.shown))
         if exhibit.drawing:
-            return made, seconds
-        table = numbers(made)
+            return made
+        table = numbers(made.shown)
     table.to_csv(path.with_suffix(".csv"), index=False, float_format="%.8g", lineterminator="\n")
-    return made, seconds
+    return made

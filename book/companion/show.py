@@ -4,10 +4,10 @@ In the book's build (``SOFTGRIP_BOOK=static``) what is shown is MyST Markdown wi
 referable figure or table; in a notebook it is HTML with the same content.
 """
 
-import base64
 import html
 import os
 import re
+from base64 import b64encode
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ import pandas as pd
 
 from book.companion.chips import chip
 from book.companion.exhibit import Exhibit, exhibit, with_logs
-from book.companion.save import make, save, svg
+from book.companion.save import Made, make, save, svg
 from book.companion.verdict import Verdict, ledger
 
 FOLDER = Path("_build/figures")
@@ -28,8 +28,8 @@ FOLDER = Path("_build/figures")
 MOST_FILES = 4
 """Data files that a provenance strip names; more are folded."""
 
-ROLE = re.compile(r"\{[a-z:]+\}`([^`]*)`")
-"""A MyST role, which is for the book only."""
+ROLE, EMPHASIS = re.compile(r"\{[a-z:]+\}`([^`]*)`"), re.compile(r"\*([^*]+)\*")
+"""A MyST role, which is for the book only, and what stands out."""
 
 
 def _in_static_book() -> bool:
@@ -46,30 +46,47 @@ def _cell(value: object) -> str:
     return chip(value, value) if isinstance(value, Verdict) else str(value)
 
 
+def image(data: bytes, kind: str, alt: str) -> str:
+    """Return the HTML of a picture that lies within the page.
+
+    Parameters
+    ----------
+    data, kind
+        Content, and its type: png or svg+xml.
+    alt
+        The picture in words.
+    """
+    return (
+        f'<img src="data:image/{kind};base64,{b64encode(data).decode()}" '
+        f'alt="{html.escape(alt)}" style="width: 100%; max-width: 640px; background: #fff">'
+    )
+
+
 @dataclass(frozen=True)
 class Shown:
     """An exhibit made, with all that stands beside it."""
 
     exhibit: Exhibit
-    made: Any
-    seconds: float
+    made: Made
+    numbered: bool = True
+    """Whether this is the place that its number names."""
 
     @cached_property
     def verdicts(self) -> str:
         """The verdicts on the numbers printed at this place, counted."""
         item = self.exhibit
-        if not item.in_dissertation:
+        if not (item.in_dissertation and self.numbered):
             return ""
         entries = ledger(int(item.number.split(".")[0]), [item.title])
         count = Counter(entry.verdict for entry in entries)
         return " ".join(chip(verdict, f"{count[verdict]} {verdict}") for verdict in count)
 
     def _facts(self) -> list[str]:
-        item = self.exhibit
+        item, data = self.exhibit, self.made.data
         origin = f"Dissertation {item.title}" if item.in_dissertation else "Not in the dissertation"
-        files = [f"{f.path.name} ({f.provenance}, sha256 {f.digest})" for f in item.data]
+        files = [f"{f.path.name} ({f.provenance}, sha256 {f.digest})" for f in data]
         if len(files) > MOST_FILES:
-            kinds = " and ".join(sorted({str(f.provenance) for f in item.data}))
+            kinds = " and ".join(sorted({str(f.provenance) for f in data}))
             words = f"<summary>{len(files)} files ({kinds})</summary>"
             files = [f"<details>{words}{', '.join(files)}</details>"]
         files += [item.sources] if item.sources else []
@@ -78,7 +95,7 @@ class Shown:
             f"shown: <b>{item.provenance}</b>",
             *([f"data: {', '.join(files)}"] if files else []),
             *(html.escape(words) for words in item.repairs),
-            f"made in {self.seconds:.1f} s by <code>{item.command}</code>",
+            f"made in {self.made.seconds:.1f} s by <code>{item.command}</code>",
         ]
 
     def _myst(self) -> str:
@@ -110,7 +127,7 @@ class Shown:
         return body + provenance
 
     def _markdown(self) -> str:
-        frame: pd.DataFrame = self.made
+        frame: pd.DataFrame = self.made.shown
         numeric = [pd.api.types.is_numeric_dtype(kind) for kind in frame.dtypes]
         lines = [
             "| " + " | ".join(map(str, frame.columns)) + " |",
@@ -123,23 +140,20 @@ class Shown:
         item = self.exhibit
         strip = " · ".join(filter(None, [self.verdicts, *self._facts()]))
         if item.kind == "table":
-            body = _html_table(self.made)
+            body = _html_table(self.made.shown)
         else:
-            data = base64.b64encode(svg(self.made)).decode()
-            body = (
-                f'<img alt="{html.escape(item.alt)}" style="max-width: 100%; width: 640px" '
-                f'src="data:image/svg+xml;base64,{data}">'
-            )
-        words = html.escape(ROLE.sub(r"\1", item.caption))
-        return f"{body}<p><b>{item.title}</b> {words}</p><p><small>{strip}</small></p>"
+            body = image(svg(self.made.shown), "svg+xml", item.alt)
+        words = EMPHASIS.sub(r"<em>\1</em>", html.escape(ROLE.sub(r"\1", item.caption)))
+        title = f"<b>{item.title}</b>" if self.numbered else f"As {item.title}:"
+        return f"{body}<p>{title} {words}</p><p><small>{strip}</small></p>"
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
-        if _in_static_book():
+        if self.numbered and _in_static_book():
             return {"text/markdown": self._myst()}
         return {"text/html": self._html()}
 
 
-def show(title: str, *, logs: Sequence[Path | str] = ()) -> Shown:
+def show(title: str, *, logs: Sequence[Path | str] = (), numbered: bool = True) -> Shown:
     """Make a figure or table and show it with its number, caption and provenance.
 
     Parameters
@@ -148,8 +162,9 @@ def show(title: str, *, logs: Sequence[Path | str] = ()) -> Shown:
         Such as ``Figure 5.1``.
     logs
         Logs of a rig to show in the place of those of the book, by path.
+    numbered
+        Whether this is its place. Elsewhere it leaves the chapter's own, and its number, alone.
     """
-    item = exhibit(title)
-    if logs:
-        item = with_logs(item, logs)
-    return Shown(item, *(save(item, FOLDER) if _in_static_book() else make(item)))
+    item = with_logs(exhibit(title), logs) if logs else exhibit(title)
+    made = save(item, FOLDER) if numbered and _in_static_book() else make(item)
+    return Shown(item, made, numbered)

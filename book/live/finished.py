@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from book.companion.save import svg
-from book.live.chapter_figure import image
+from book.companion.show import image
 from book.live.experiments import experiments
 from book.live.plot import LivePlot
 from softgrip.rig.interface import Connection

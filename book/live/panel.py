@@ -12,7 +12,7 @@ from typing import Any
 
 import ipywidgets as widgets
 
-from book.live.chapter_figure import image
+from book.companion.show import image
 from book.live.experiments import experiments
 from book.live.finished import FinishedRun
 from book.live.plot import LivePlot

@@ -17,6 +17,9 @@ from softgrip.errors import UnknownNameError
 from softgrip.kept import Kept
 
 OPTIMUM = "Opt. parameters"
+DESIGNS = (OPTIMUM, *(f"Variance {k}" for k in range(1, 7)))
+"""The rows of Table 3.1."""
+
 SIZE = 0.002
 """Element size of Table 3.1's rows, m; ``convergence`` shows what a finer one changes."""
 
@@ -98,7 +101,7 @@ _FLOORS = (0.0, 0.003, 0.006, 0.009, 0.012, 0.015)
 
 TABLES: Mapping[str, Sequence[tuple[str, int, float, float]]] = MappingProxyType(
     {
-        "table_3_1": [(name, n, 0.0, SIZE) for n in (BEAM, CHAMBERS) for name in table_3_1()],
+        "table_3_1": [(name, n, 0.0, SIZE) for n in (BEAM, CHAMBERS) for name in DESIGNS],
         "convergence": [(OPTIMUM, n, 0.0, size) for n in (BEAM, CHAMBERS) for size in _SIZES],
         "groove_floor": [(OPTIMUM, CHAMBERS, floor, SWEEP_SIZE) for floor in _FLOORS],
     }

@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
 from types import MappingProxyType
 
 from softgrip.actuator.design import Bounds, DesignProblem, FrequencyBand
 from softgrip.actuator.section import Section
 from softgrip.errors import UnknownNameError
 from softgrip.provenance import data_rows
+from softgrip.reads import remembered
 from softgrip.units import MM, MPa
 
 FREQUENCY_POWER = 1.045
@@ -90,7 +90,7 @@ def _section(row: Mapping[str, str]) -> Section:
     return Section(length("top"), length("bottom"), length("width"), length("wall"))
 
 
-@cache
+@remembered
 def table_3_1() -> Mapping[str, Section]:
     """Read Table 3.1: a read-only mapping from name to section, in the printed order.
 
@@ -111,7 +111,7 @@ def section(name: str) -> Section:
     return known[name]
 
 
-@cache
+@remembered
 def table_3_2() -> tuple[BandRow, ...]:
     """Read Table 3.2, in the printed order."""
     return tuple(
@@ -120,7 +120,7 @@ def table_3_2() -> tuple[BandRow, ...]:
     )
 
 
-@cache
+@remembered
 def table_3_3() -> Mapping[str, FrequencyRow]:
     """Read Table 3.3: a read-only mapping from the design's name to its row."""
     optimum = section("Opt. parameters")

@@ -1,7 +1,6 @@
 """The three pressure models of Chapter 4 held against a log of a push, whichever rig made it."""
 
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +18,7 @@ from softgrip.pump import pressure as law
 from softgrip.pump.capacity import CapacityEstimate, estimate
 from softgrip.pump.elastance import ElastanceModel, NoiseLevels, Prior
 from softgrip.pump.noise import NoiseEstimate, estimate_noise
+from softgrip.reads import remembered
 from softgrip.units import MPa
 
 LOW = 0.03 * MPa
@@ -107,7 +107,7 @@ KEPT = Kept(
 )
 
 
-@cache
+@remembered
 def reference_noise() -> NoiseLevels:
     """Read the kept noise levels of the filter."""
     (levels,) = KEPT.read()

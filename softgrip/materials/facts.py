@@ -5,7 +5,6 @@ They let the pages be built, and the ledger be judged, where the tests cannot be
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
 from types import MappingProxyType
 
 from softgrip.kept import Kept
@@ -13,6 +12,7 @@ from softgrip.materials import tensile, yeoh
 from softgrip.materials.table import table_5_1
 from softgrip.materials.tensile import TensileTest
 from softgrip.provenance import Provenance
+from softgrip.reads import remembered
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ KEPT = Kept(
 )
 
 
-@cache
+@remembered
 def facts() -> Mapping[str, TensileFacts]:
     """Read the kept facts of the ten materials, by name."""
     return MappingProxyType({row.name: row for row in KEPT.read()})

@@ -8,7 +8,6 @@ is a `Fitting`; what all of them give for the ten materials is kept in
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
 from itertools import product
 from math import inf, nan
 from types import MappingProxyType
@@ -23,6 +22,7 @@ from softgrip.materials import ludwick, tensile
 from softgrip.materials.table import table_5_1
 from softgrip.materials.tensile import TensileTest, up_to_peak
 from softgrip.provenance import Provenance
+from softgrip.reads import remembered
 
 Stress = Literal["true", "engineering"]
 Modulus = Literal["held", "free"]
@@ -147,7 +147,7 @@ KEPT = Kept(
 )
 
 
-@cache
+@remembered
 def kept() -> MappingProxyType[tuple[str, Fitting], float]:
     """Read what `measure` gave: n by material and way of fitting."""
     return MappingProxyType(

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cache
 from types import MappingProxyType
 
 import numpy as np
@@ -10,6 +9,7 @@ import numpy as np
 from softgrip.arrays import Floats
 from softgrip.errors import UnknownNameError
 from softgrip.provenance import data_rows
+from softgrip.reads import remembered
 from softgrip.units import MPa
 
 HELD_OUT = ("Dragon Skin 20", "Dragon Skin FX Pro")
@@ -41,7 +41,7 @@ class Material:
     tensile_strength: float
 
 
-@cache
+@remembered
 def table_5_1() -> Mapping[str, Material]:
     """Read Table 5.1: a read-only mapping from name to material, in the printed order.
 

@@ -7,10 +7,10 @@ no finding; which sizes they ask for is.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
 from types import MappingProxyType
 
 from softgrip.provenance import cells, data_file
+from softgrip.reads import remembered
 from softgrip.tactile.element import Element, Shape, cut_sphere
 from softgrip.units import MM
 
@@ -54,7 +54,7 @@ class PrintedRow:
         return low, high
 
 
-@cache
+@remembered
 def table_2_1() -> Mapping[tuple[Shape, str], PrintedRow]:
     """Read Table 2.1: a read-only mapping from (shape, method), in the printed order.
 

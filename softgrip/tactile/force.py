@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
 from math import sqrt
 from types import MappingProxyType
 
@@ -10,6 +9,7 @@ from scipy.stats import foldnorm, t
 
 from softgrip.errors import InvalidInputError
 from softgrip.provenance import data_rows
+from softgrip.reads import remembered
 from softgrip.units import GRAM_FORCE
 
 TABLE_2_2 = "tactile/table_2_2.csv"
@@ -90,7 +90,7 @@ class Weighing:
         return float(2 * t.sf(statistic, self.times - 1))
 
 
-@cache
+@remembered
 def table_2_2() -> Mapping[str, Weighing]:
     """Return the rows of Table 2.2 by object, N; each is the mean of ten measurements."""
 

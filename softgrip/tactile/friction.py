@@ -7,7 +7,6 @@ so that a pair leaves an interval of coefficients; a single rubber must lie in a
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
-from functools import cache
 from types import MappingProxyType
 from typing import Self
 
@@ -16,6 +15,7 @@ from scipy.stats import norm
 from softgrip.arrays import Value, check_positive
 from softgrip.errors import InvalidInputError
 from softgrip.provenance import data_rows
+from softgrip.reads import remembered
 
 
 def contact_force(lift_force: Value, friction: float) -> Value:
@@ -193,7 +193,7 @@ class PrintedGrasp:
         return friction_interval(Interval.of_print(self.contact), Interval.of_print(self.weight))
 
 
-@cache
+@remembered
 def printed_grasps() -> Mapping[str, PrintedGrasp]:
     """Return the three grasps of Section 2.4 by object, in the order of the text."""
     return MappingProxyType(
@@ -206,7 +206,7 @@ def printed_grasps() -> Mapping[str, PrintedGrasp]:
     )
 
 
-@cache
+@remembered
 def common_friction() -> Interval | None:
     """Return the coefficients that agree with all three printed grasps, or None."""
     return intersection(grasp.friction for grasp in printed_grasps().values())

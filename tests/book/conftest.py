@@ -1,5 +1,6 @@
 """The built book, and a browser that has no network."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -31,6 +32,17 @@ def build(folder: Path, **environment: str) -> str:
     )
     assert result.returncode == 0, result.stdout[-6000:] + result.stderr[-6000:]
     return result.stdout
+
+
+@pytest.fixture(scope="session")
+def read_alone() -> dict[str, list[str]]:
+    """Return the files below ``data/`` that each exhibit reads when it is made alone, by title."""
+    command = [sys.executable, "-m", "tests.book.alone"]
+    # One thread each: there is an exhibit for each processor already.
+    one = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    result = subprocess.run(command, capture_output=True, text=True, env=one)
+    assert result.returncode == 0, result.stderr[-6000:]
+    return json.loads(result.stdout)
 
 
 @pytest.fixture(scope="session")

@@ -30,6 +30,7 @@ def test_modules_and_data_files_that_were_used_are_recorded(tmp_path, root):
 def test_what_was_not_used_is_not_recorded(tmp_path, root):
     assert run("import softgrip.units", tmp_path / "t.json", root) == {
         "softgrip/__init__.py",
+        "softgrip/reads.py",  # which listens
         "softgrip/units.py",
     }
 

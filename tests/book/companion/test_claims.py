@@ -3,8 +3,8 @@
 import pytest
 
 from book.companion import claims as module
-from book.companion.claims import read_claims
-from softgrip.errors import DataFileError, InvalidInputError
+from book.companion.claims import claim_of, read_claims
+from softgrip.errors import DataFileError, InvalidInputError, UnknownNameError
 
 HEAD = "# provenance: printed\n# source: test\n"
 
@@ -57,3 +57,10 @@ def test_mistakes_are_named(write, text, message):
 def test_chapter_without_claims_is_named():
     with pytest.raises(InvalidInputError, match="chapter: expected one with claims"):
         read_claims(99)
+
+
+def test_claim_is_found_by_its_id_and_the_key_of_its_cell():
+    claim = claim_of(5, "table-5.1-n-{key}", "Mold Star 20T")
+    assert (claim.id, claim.printed) == ("table-5.1-n-mold-star-20t", "2.174")
+    with pytest.raises(UnknownNameError, match=r"table-3\.2-top-1"):
+        claim_of(3, "table-3.2-top-{key}", 9)

@@ -8,6 +8,7 @@ from book.companion.exhibit import exhibit, exhibits
 from book.companion.save import numbers, save
 from book.companion.style import style
 from softgrip.errors import UnknownNameError
+from softgrip.provenance import data_folder
 
 ALL = exhibits()
 
@@ -16,7 +17,7 @@ ALL = exhibits()
 def saved(tmp_path_factory):
     """Save every exhibit twice."""
     folders = [tmp_path_factory.mktemp("first"), tmp_path_factory.mktemp("second")]
-    made = {item.title: [save(item, folder)[0] for folder in folders] for item in ALL}
+    made = {item.title: [save(item, folder) for folder in folders] for item in ALL}
     return folders, made
 
 
@@ -32,7 +33,7 @@ def test_csv_holds_finite_numbers(item, saved):
     path = saved[0][0] / f"{item.name}.csv"
     assert path.exists() != item.drawing
     if item.drawing:
-        assert not any(axes.axison for axes in saved[1][item.title][0].axes)
+        assert not any(axes.axison for axes in saved[1][item.title][0].shown.axes)
         return
     frame = pd.read_csv(path)
     assert len(frame) >= 2
@@ -42,10 +43,21 @@ def test_csv_holds_finite_numbers(item, saved):
 
 @pytest.mark.parametrize("item", ALL, ids=lambda item: item.title)
 def test_what_stands_beside_it_is_there(item, saved):
-    made = saved[1][item.title][0]
+    made = saved[1][item.title][0].shown
     assert isinstance(made, Figure if item.kind == "figure" else pd.DataFrame)
     assert item.caption.strip().endswith(".")
     assert item.kind == "table" or len(item.alt) > 40
+
+
+def test_nothing_is_read_before_an_exhibit_is_made(read_alone):
+    assert read_alone["an import"] == []
+
+
+@pytest.mark.parametrize("item", ALL, ids=lambda item: item.title)
+def test_strip_names_what_it_reads_alone_though_others_have_read_it_before(item, saved, read_alone):
+    for made in saved[1][item.title]:
+        names = [file.path.relative_to(data_folder().resolve()).as_posix() for file in made.data]
+        assert names == read_alone[item.title]
 
 
 def test_axes_of_every_figure_are_named(saved):

@@ -25,8 +25,9 @@ def mine(tmp_path):
 def test_other_log_is_drawn_and_named(mine):
     item = with_logs(exhibit("Figure 4.4"), [mine])
     assert item.provenance is Provenance.LOGGED
-    figure, _ = make(item)
-    drawn = numbers(figure)
+    made = make(item)
+    assert made.data[0].path == mine
+    drawn = numbers(made.shown)
     assert set(drawn["panel"].str.split("\n").str[0]) == {"mine"}
     assert "logged" in set(drawn["series"])
     shown = show("Figure 4.4", logs=[mine])._repr_mimebundle_()["text/html"]
@@ -48,4 +49,4 @@ def test_log_without_provenance_is_refused(tmp_path):
     with pytest.raises(DataFileError, match="a header with '# provenance:'"):
         with_logs(exhibit("Figure 4.4"), [path])
     shutil.copy(PUSH, path)
-    assert with_logs(exhibit("Figure 4.4"), [path]).data[0].path == path
+    assert with_logs(exhibit("Figure 4.4"), [path]).logs == (path,)

@@ -7,10 +7,10 @@ import jupytext
 import pytest
 import serial
 
+from book.companion.show import show
 from book.live import firmware as rig_firmware
 from book.live import protocol as rig_protocol
 from book.live.acceptance import bands_table
-from book.live.chapter_figure import chapter_figure
 from book.live.emulated import emulated_table, measured_firmware
 from book.live.finished import FinishedRun
 from book.live.panel import ControlPanel
@@ -245,7 +245,7 @@ def test_a_chapters_figure_from_a_log_leaves_that_of_the_book_alone(tmp_path, mo
     monkeypatch.chdir(tmp_path)
     own = Path(tmp_path / "own.csv")
     own.write_bytes((KEPT / "staircase.csv").read_bytes())
-    shown = chapter_figure("Figure 4.7", [own]).data
+    shown = show("Figure 4.7", logs=[own], numbered=False)._repr_mimebundle_()["text/html"]
     assert "As Figure 4.7" in shown
     assert "own.csv" in shown
     assert "<b>simulated</b>" in shown
