@@ -1,7 +1,7 @@
 """Array types of the material laws, and the checks that the laws share."""
 
 from collections.abc import Iterator
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +11,8 @@ from softgrip.errors import InvalidInputError
 Floats = NDArray[np.float64]
 Value = TypeVar("Value", float, Floats)
 """A float or an array: a law returns what it was given."""
+Number = Any
+"""A float, an array or a CasADi symbol: a law returns what it was given, and broadcasts."""
 
 
 def read_only(values: ArrayLike) -> Floats:
@@ -20,10 +22,11 @@ def read_only(values: ArrayLike) -> Floats:
     return array
 
 
-def check_positive(**values: float) -> None:
-    """Raise InvalidInputError for the first value that is not finite and above zero."""
+def check_positive(**values: ArrayLike) -> None:
+    """Raise InvalidInputError for the first value, number or array, not finite and above zero."""
     for name, value in values.items():
-        if not (np.isfinite(value) and value > 0):
+        array = np.asarray(value, dtype=np.float64)
+        if not (np.isfinite(array).all() and (array > 0).all()):
             raise InvalidInputError(name, expected="a finite number > 0", got=value)
 
 

@@ -1,18 +1,10 @@
-"""Checks of input that the files of this folder share; they look at floats and arrays alike."""
+"""Checks of input; they look at floats and arrays alike. See also `softgrip.arrays`."""
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-
-
-def check_above_zero(**values: ArrayLike) -> None:
-    """Raise InvalidInputError for the first value that is not all finite and above zero."""
-    for name, value in values.items():
-        array = np.asarray(value, dtype=np.float64)
-        if not (np.isfinite(array).all() and (array > 0).all()):
-            raise InvalidInputError(name, expected="finite numbers > 0", got=value)
 
 
 def check_not_negative(**values: ArrayLike) -> None:

@@ -1,18 +1,14 @@
 """How far pressure bends a free finger, Eq. (3.7)-(3.10)."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.actuator.section import Section, check_section, torque, wall_stress_ratio
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats, Number, check_positive
 from softgrip.errors import InvalidInputError
 from softgrip.units import MM, MPa
-
-Value = Any
-"""A float, an array or a CasADi symbol: a law returns what it was given, and broadcasts."""
 
 
 @dataclass(frozen=True)
@@ -37,9 +33,9 @@ class Finger:
     """
 
     section: Section
-    length: Value = 94 * MM
-    young_modulus: Value = 0.34 * MPa
-    fractional_power: Value = 1.0
+    length: Number = 94 * MM
+    young_modulus: Number = 0.34 * MPa
+    fractional_power: Number = 1.0
 
     def __post_init__(self) -> None:
         numbers = (self.length, self.young_modulus, self.fractional_power)
@@ -56,7 +52,7 @@ def check_power(fractional_power: float) -> None:
         )
 
 
-def modified_moment(fractional_power: Value, width: Value, height: Value) -> Value:
+def modified_moment(fractional_power: Number, width: Number, height: Number) -> Number:
     """Return the moment of inertia I_n of a solid rectangle, Eq. (3.8), m^(3 + n).
 
     ``M = E I_n kappa**n`` follows from integrating ``y E (kappa y)**n`` over the section. At n = 1
@@ -78,12 +74,12 @@ def modified_moment(fractional_power: Value, width: Value, height: Value) -> Val
     return 0.5 ** (1 + n) / (2 + n) * width * height ** (2 + n)
 
 
-def elongation(section: Section, pressure: Value, young_modulus: Value) -> Value:
+def elongation(section: Section, pressure: Number, young_modulus: Number) -> Number:
     """Return ``(L_i + delta L) / L_i`` of Eq. (3.9): ``1 + P A_c / (A_w E)``, dimensionless."""
     return 1 + pressure * wall_stress_ratio(section) / young_modulus
 
 
-def bending_angle(finger: Finger, pressure: Value, *, elongated: bool = True) -> Value:
+def bending_angle(finger: Finger, pressure: Number, *, elongated: bool = True) -> Number:
     """Return theta, rad, at a pressure [Pa]: Eq. (3.10), or Eq. (3.7) if not `elongated`.
 
     It holds where the torque is not negative: b >= t and P >= 0. Then ``T**(1/n)`` is real.

@@ -7,13 +7,10 @@ from typing import Any
 from softgrip.actuator.bending import Finger, bending_angle, check_power
 from softgrip.actuator.frequency import stiffness_product, stiffness_product_for
 from softgrip.actuator.section import Section, torque
-from softgrip.arrays import check_positive
+from softgrip.arrays import Number, check_positive
 from softgrip.errors import InvalidInputError, SoftgripError
 from softgrip.materials.table import material
 from softgrip.units import MM, MPa
-
-Value = Any
-"""A float, an array or a CasADi symbol."""
 
 Range = tuple[float, float]
 DIMENSIONS = ("top", "bottom", "width", "wall")
@@ -164,14 +161,14 @@ class DesignProblem:
         )
 
 
-def objective(problem: DesignProblem, section: Section) -> Value:
+def objective(problem: DesignProblem, section: Section) -> Number:
     """Return ``T / T_0 + theta / theta_0``, what is made large; defined where b >= t."""
     bent = bending_angle(problem.finger(section), problem.pressure)
     pushed = torque(section, problem.pressure)
     return pushed / problem.torque_scale + bent / problem.angle_scale
 
 
-def product(problem: DesignProblem, section: Section) -> Value:
+def product(problem: DesignProblem, section: Section) -> Number:
     """Return what Eq. (3.21) keeps between C_1 and C_2: ``E w (a + b)**(n + 2)``, N m^n."""
     return stiffness_product(section, problem.young_modulus, problem.fractional_power)
 

@@ -1,15 +1,11 @@
 """The natural frequency of the finger from its dimensions, Eq. (3.11)-(3.23)."""
 
-from typing import Any
-
 from softgrip.actuator.bending import Finger, modified_moment
 from softgrip.actuator.section import Section, wall_area
-
-Value = Any
-"""A float, an array or a CasADi symbol: a law returns what it was given, and broadcasts."""
+from softgrip.arrays import Number
 
 
-def spring_constant(finger: Finger) -> Value:
+def spring_constant(finger: Finger) -> Number:
     """Return K of ``F = K theta**n``, Eq. (3.14), N per rad**n.
 
     The force F acts at the tip, across the beam, and Eq. (3.13) takes the beam as nearly straight.
@@ -19,7 +15,7 @@ def spring_constant(finger: Finger) -> Value:
     return ((n + 1) / n) ** n * finger.young_modulus * moment / finger.length ** (n + 1)
 
 
-def natural_frequency(finger: Finger, mass: Value) -> Value:
+def natural_frequency(finger: Finger, mass: Number) -> Number:
     """Return omega_n, rad/s, Eq. (3.16), the root of Eq. (3.18), which is K / M_eq in Eq. (3.15).
 
     For n other than 1 it is the frequency of no motion: that of ``theta'' + omega**2 theta**n = 0``
@@ -42,20 +38,20 @@ def natural_frequency(finger: Finger, mass: Value) -> Value:
     return (spring_constant(finger) / mass) ** 0.5
 
 
-def stiffness_product(section: Section, young_modulus: Value, fractional_power: Value) -> Value:
+def stiffness_product(section: Section, young_modulus: Number, fractional_power: Number) -> Number:
     """Return ``E w (a + b)**(n + 2)``, N m^n: what of a section its natural frequency hangs on."""
     return young_modulus * section.width * section.height ** (fractional_power + 2)
 
 
 def stiffness_product_for(
-    frequency: Value, mass: Value, fractional_power: Value, length: Value
-) -> Value:
+    frequency: Number, mass: Number, fractional_power: Number, length: Number
+) -> Number:
     """Return the stiffness product, Eq. (3.19), for a frequency [rad/s] and a mass [kg], N m^n."""
     n = fractional_power
     return (n / (n + 1)) ** n * 2 ** (n + 1) * (n + 2) * mass * frequency**2 * length ** (n + 1)
 
 
-def rubber_mass(section: Section, length: Value, density: Value) -> Value:
+def rubber_mass(section: Section, length: Number, density: Number) -> Number:
     """Return the mass of the wall over the length, kg (Remark 2: volume times density).
 
     End caps and the partitions between chambers are not counted: their sizes are not printed.

@@ -7,14 +7,11 @@ CasADi symbols: the laws hold no test and no branch.
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from softgrip.arrays import Number
 from softgrip.errors import InvalidInputError
-
-Value = Any
-"""A float, an array or a CasADi symbol: a law returns what it was given, and broadcasts."""
 
 
 @dataclass(frozen=True)
@@ -40,13 +37,13 @@ class Section:
     0.51
     """
 
-    top: Value
-    bottom: Value
-    width: Value
-    wall: Value
+    top: Number
+    bottom: Number
+    width: Number
+    wall: Number
 
     @property
-    def height(self) -> Value:
+    def height(self) -> Number:
         """Height h = a + b, m."""
         return self.top + self.bottom
 
@@ -70,12 +67,12 @@ def check_section(section: Section) -> None:
         )
 
 
-def chamber_area(section: Section) -> Value:
+def chamber_area(section: Section) -> Number:
     """Return A_c, m^2: the yellow area of Figure 3.3 (c)."""
     return (section.top - section.wall) * (section.width - 2 * section.wall)
 
 
-def wall_area(section: Section) -> Value:
+def wall_area(section: Section) -> Number:
     """Return A_w, m^2: side walls, top wall and the rubber below the chamber.
 
     It is the denominator ``b w + w t + 2 a t - 2 t**2`` of Eq. (3.3).
@@ -84,7 +81,7 @@ def wall_area(section: Section) -> Value:
     return w * (b + t) + 2 * t * (a - t)
 
 
-def wall_stress_ratio(section: Section) -> Value:
+def wall_stress_ratio(section: Section) -> Number:
     """Return ``P_w / P``, Eq. (3.3), by which the forces along the finger, Eq. (3.1), balance.
 
     Examples
@@ -95,7 +92,7 @@ def wall_stress_ratio(section: Section) -> Value:
     return chamber_area(section) / wall_area(section)
 
 
-def torque(section: Section, pressure: Value) -> Value:
+def torque(section: Section, pressure: Number) -> Number:
     """Return T, N m, Eq. (3.4): the moments, Eq. (3.2), of chamber, Eq. (3.5), and wall, Eq. (3.6).
 
     Positive towards the bottom. The pressure pushes on the end of a cut finger, the wall pulls on

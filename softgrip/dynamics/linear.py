@@ -1,17 +1,12 @@
 """The finger as a mass, a damper and a spring after Hooke's law, Eq. (5.9)-(5.11) and (5.17)."""
 
-from typing import Any
-
-from softgrip.arrays import check_positive
+from softgrip.arrays import Number, check_positive
 from softgrip.dynamics.ludwick import LudwickFinger
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import InvalidInputError
 
-Value = Any
-"""A float or an array: a law returns what it was given, and broadcasts."""
 
-
-def moment_of_inertia(width: Value, height: Value) -> Value:
+def moment_of_inertia(width: Number, height: Number) -> Number:
     """Return I of a rectangular section, Eq. (5.11), m^4.
 
     Parameters
@@ -27,7 +22,7 @@ def moment_of_inertia(width: Value, height: Value) -> Value:
     return width * height**3 / 12
 
 
-def spring_constant(young_modulus: Value, width: Value, height: Value, length: Value) -> Value:
+def spring_constant(young_modulus: Number, width: Number, height: Number, length: Number) -> Number:
     """Return K, Eq. (5.10), N/rad: the spring of a cantilever with a force at its tip.
 
     Parameters
@@ -45,7 +40,7 @@ def spring_constant(young_modulus: Value, width: Value, height: Value, length: V
     return 2 * young_modulus * moment_of_inertia(width, height) / length**2
 
 
-def force(angle: Value, stiffness: Value) -> Value:
+def force(angle: Number, stiffness: Number) -> Number:
     """Return the force at the tip, N, that holds an angle [rad], Eq. (5.9).
 
     The print calls it P here and F in the sentence below; it is a force, not a pressure.

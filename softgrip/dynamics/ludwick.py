@@ -2,23 +2,19 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, chunks
+from softgrip.arrays import Floats, Number, chunks
 from softgrip.dynamics.integrate import Derivative, rk4
 from softgrip.errors import InvalidInputError
-
-Value = Any
-"""A float or an array: a law returns what it was given, and broadcasts."""
 
 LARGEST_STEP = 0.025
 """Of the integration of `pressure_response`, s."""
 
 
-def modified_moment(fractional_power: Value, width: Value, height: Value) -> Value:
+def modified_moment(fractional_power: Number, width: Number, height: Number) -> Number:
     """Return the modified moment of inertia I_n of a rectangular section, Eq. (5.14).
 
     ``I_n = (1/2)**n b h**(2 + n) / (2 + n)``. At n = 1 this is ``b h**3 / 6``, twice the
@@ -48,8 +44,8 @@ def modified_moment(fractional_power: Value, width: Value, height: Value) -> Val
 
 
 def spring_constant(
-    young_modulus: Value, fractional_power: Value, width: Value, height: Value, length: Value
-) -> Value:
+    young_modulus: Number, fractional_power: Number, width: Number, height: Number, length: Number
+) -> Number:
     """Return the spring constant K_n of ``P = K_n theta**n``, Eq. (5.13), with `modified_moment`.
 
     At n = 1 it is ``E b h**3 / (3 L**2)``, twice the ``E b h**3 / (6 L**2)`` of Eq. (5.10) and
@@ -74,7 +70,7 @@ def spring_constant(
     return ((n + 1) / n) ** n * young_modulus * moment / length ** (n + 1)
 
 
-def restoring_force(angle: Value, stiffness: Value, fractional_power: Value) -> Value:
+def restoring_force(angle: Number, stiffness: Number, fractional_power: Number) -> Number:
     """Return the force ``K_n theta**n``, Eq. (5.12), continued as an odd function below zero.
 
     Parameters
@@ -136,7 +132,7 @@ class LudwickFinger:
         return LudwickFinger(*(np.broadcast_to(np.asarray(f), (runs,))[part] for f in fields))
 
 
-def acceleration(finger: LudwickFinger, angle: Value, rate: Value, force: Value) -> Value:
+def acceleration(finger: LudwickFinger, angle: Number, rate: Number, force: Number) -> Number:
     """Return the angular acceleration, Eq. (3.11): what force, damper and spring leave, Eq. (5.15).
 
     Parameters

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, read_only
-from softgrip.checks import check_above_zero, record
+from softgrip.arrays import Floats, check_positive, read_only
+from softgrip.checks import record
 from softgrip.errors import InvalidInputError
 from softgrip.pump.elastance import ElastanceModel, elastance_filter, transitions
 
@@ -130,7 +130,7 @@ def estimate(
 
 def _steps(steps: ArrayLike, count: int) -> Floats:
     found = np.asarray(steps, dtype=np.float64)
-    check_above_zero(steps=found)
+    check_positive(steps=found)
     if found.shape not in ((), (count,)):
         raise InvalidInputError("steps", expected=f"a number or shape ({count},)", got=found.shape)
     return np.broadcast_to(found, count)

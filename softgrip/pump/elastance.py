@@ -23,8 +23,8 @@ import numpy as np
 from filterpy.kalman import KalmanFilter
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats
-from softgrip.checks import check_above_zero, check_finite, check_not_negative
+from softgrip.arrays import Floats, check_positive
+from softgrip.checks import check_finite, check_not_negative
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class NoiseLevels:
 
     def __post_init__(self) -> None:
         check_not_negative(pressure_step=self.pressure_step, elastance_step=self.elastance_step)
-        check_above_zero(sensor=self.sensor)
+        check_positive(sensor=self.sensor)
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class Prior:
 
     def __post_init__(self) -> None:
         check_finite(pressure=self.pressure)
-        check_above_zero(
+        check_positive(
             pressure_std=self.pressure_std,
             elastance=self.elastance,
             elastance_std=self.elastance_std,
@@ -99,7 +99,7 @@ class ElastanceModel:
     angle_gain: float = 0.0
 
     def __post_init__(self) -> None:
-        check_above_zero(time_step=self.time_step)
+        check_positive(time_step=self.time_step)
         check_finite(angle_gain=self.angle_gain)
 
 
@@ -124,7 +124,7 @@ def transitions(flow: ArrayLike, time_step: float) -> Floats:
     [[[1.0, 1.0], [0.0, 1.0]]]
     """
     check_finite(flow=flow)
-    check_above_zero(time_step=time_step)
+    check_positive(time_step=time_step)
     steps = np.asarray(flow, dtype=np.float64) * time_step
     result = np.tile(np.eye(2), (steps.size, 1, 1))
     result[:, 0, 1] = steps

@@ -6,7 +6,8 @@ begin at atmospheric pressure, and at the end all of that charge is at the press
 
 from dataclasses import dataclass
 
-from softgrip.checks import check_above_zero, check_not_negative
+from softgrip.arrays import check_positive
+from softgrip.checks import check_not_negative
 from softgrip.errors import InvalidInputError
 from softgrip.pump.gas import ATMOSPHERE
 
@@ -34,7 +35,7 @@ class Finger:
     rise_time: float
 
     def __post_init__(self) -> None:
-        check_above_zero(
+        check_positive(
             gauge_pressure=self.gauge_pressure,
             volume_at_rest=self.volume_at_rest,
             rise_time=self.rise_time,
@@ -73,7 +74,7 @@ def swept_volume(finger: Finger, start_volume: float, atmosphere: float = ATMOSP
     >>> round(swept_volume(finger, 60e-6) * 1e6, 6)
     40.0
     """
-    check_above_zero(start_volume=start_volume, atmosphere=atmosphere)
+    check_positive(start_volume=start_volume, atmosphere=atmosphere)
     ratio = atmosphere / (atmosphere + finger.gauge_pressure)
     before = start_volume + finger.volume_at_rest + finger.dead_volume
     return start_volume + finger.volume_at_pressure + finger.dead_volume - ratio * before
@@ -90,7 +91,7 @@ def least_start_volume(finger: Finger, atmosphere: float = ATMOSPHERE) -> float:
     >>> round(least_start_volume(Finger(101325.0, 20e-6, 20e-6, 0.0, 1.0)) * 1e6, 6)
     20.0
     """
-    check_above_zero(atmosphere=atmosphere)
+    check_positive(atmosphere=atmosphere)
     ratio = (atmosphere + finger.gauge_pressure) / atmosphere
     at_rest = finger.volume_at_rest + finger.dead_volume
     return ratio * (finger.volume_at_pressure + finger.dead_volume) - at_rest

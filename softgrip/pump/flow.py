@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from math import pi
 from types import MappingProxyType
 
-from softgrip.arrays import Value
-from softgrip.checks import check_above_zero
+from softgrip.arrays import Value, check_positive
 from softgrip.errors import UnknownNameError
 from softgrip.units import REV
 
@@ -27,7 +26,7 @@ class Pump:
     lead: float
 
     def __post_init__(self) -> None:
-        check_above_zero(area=self.area, lead=self.lead)
+        check_positive(area=self.area, lead=self.lead)
 
     @property
     def displacement(self) -> float:
@@ -76,7 +75,7 @@ def slider_speed(motor_speed: Value, lead: float) -> Value:
     >>> round(slider_speed(1.65 * REV, 0.008), 6)
     0.0132
     """
-    check_above_zero(lead=lead)
+    check_positive(lead=lead)
     result: Value = lead / (2 * pi) * motor_speed
     return result
 

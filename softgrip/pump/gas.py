@@ -25,8 +25,8 @@ from typing import Any
 
 import numpy as np
 
-from softgrip.arrays import Value
-from softgrip.checks import check_above_zero, check_not_negative
+from softgrip.arrays import Value, check_positive
+from softgrip.checks import check_not_negative
 from softgrip.errors import InvalidInputError
 
 GAS_CONSTANT = 8.31446261815324
@@ -57,7 +57,7 @@ def gas_pressure(amount: Value, volume: Value, temperature: float = 293.15) -> V
     >>> round(gas_pressure(1.0, 0.0224139695, 273.15))
     101325
     """
-    check_above_zero(amount=amount, volume=volume, temperature=temperature)
+    check_positive(amount=amount, volume=volume, temperature=temperature)
     result: Value = amount * (GAS_CONSTANT * temperature) / volume
     return result
 
@@ -84,7 +84,7 @@ def capacity(pressure: Value, gas_volume: Value, compliance: float = 0.0) -> Val
     >>> capacity(1e5, 1e-4)  # 100 mL of air at 1 bar
     1e-09
     """
-    check_above_zero(pressure=pressure, gas_volume=gas_volume)
+    check_positive(pressure=pressure, gas_volume=gas_volume)
     check_not_negative(compliance=compliance)
     result: Value = gas_volume / pressure + compliance
     return result
@@ -189,7 +189,7 @@ def closed_volume_pressure(
     >>> closed_volume_pressure(50e-6, 100e-6, start_pressure=1e5)  # half the volume, twice P
     200000.0
     """
-    check_above_zero(gas_volume=gas_volume, start_pressure=start_pressure)
+    check_positive(gas_volume=gas_volume, start_pressure=start_pressure)
     check_not_negative(compliance=compliance)
     # Not <=, so that NaN is caught as well.
     if not np.all(np.asarray(swept_volume) < gas_volume):

@@ -3,8 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats
-from softgrip.checks import check_above_zero
+from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
 
 
@@ -73,5 +72,5 @@ def observable_rank(transitions: ArrayLike, H: ArrayLike, scale: ArrayLike | Non
         raise InvalidInputError(
             "scale", expected=f"shape {columns.shape[1:]}", got=f"shape {sizes.shape}"
         )
-    check_above_zero(scale=sizes)
+    check_positive(scale=sizes)
     return int(np.linalg.matrix_rank(columns * sizes))

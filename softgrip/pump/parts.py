@@ -9,8 +9,8 @@ from math import pi
 
 import numpy as np
 
-from softgrip.arrays import Value
-from softgrip.checks import check_above_zero, check_not_negative
+from softgrip.arrays import Value, check_positive
+from softgrip.checks import check_not_negative
 from softgrip.errors import InvalidInputError
 from softgrip.pump.flow import TABLE_4_1
 from softgrip.units import ML, REV
@@ -38,7 +38,7 @@ class Syringe:
     friction: float = 0.0
 
     def __post_init__(self) -> None:
-        check_above_zero(volume=self.volume, area=self.area)
+        check_positive(volume=self.volume, area=self.area)
         check_not_negative(friction=self.friction)
 
     @property
@@ -66,7 +66,7 @@ class Screw:
     efficiency: float
 
     def __post_init__(self) -> None:
-        check_above_zero(lead=self.lead, efficiency=self.efficiency)
+        check_positive(lead=self.lead, efficiency=self.efficiency)
         if self.efficiency > 1:
             raise InvalidInputError("efficiency", expected="in (0, 1]", got=self.efficiency)
 
@@ -107,7 +107,7 @@ class Motor:
     speed_limit: float = float("inf")
 
     def __post_init__(self) -> None:
-        check_above_zero(holding_torque=self.holding_torque, no_torque_speed=self.no_torque_speed)
+        check_positive(holding_torque=self.holding_torque, no_torque_speed=self.no_torque_speed)
         if not self.speed_limit > 0:
             raise InvalidInputError("speed_limit", expected="a number > 0", got=self.speed_limit)
 
@@ -159,9 +159,7 @@ def winding_limited_speed(
     >>> round(winding_limited_speed(24.0, 3.0e-3, 2.0))  # 12.7 rev/s
     80
     """
-    check_above_zero(
-        voltage=voltage, inductance=inductance, current=current, rotor_teeth=rotor_teeth
-    )
+    check_positive(voltage=voltage, inductance=inductance, current=current, rotor_teeth=rotor_teeth)
     return voltage / (rotor_teeth * inductance * current)
 
 

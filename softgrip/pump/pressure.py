@@ -8,8 +8,7 @@ where Section 4.4 has it reduce the response time.
 import control
 import numpy as np
 
-from softgrip.arrays import Value
-from softgrip.checks import check_above_zero
+from softgrip.arrays import Value, check_positive
 from softgrip.errors import InvalidInputError
 from softgrip.pump.flow import Pump
 
@@ -34,7 +33,7 @@ def pressure_rate(flow: Value, capacity: Value) -> Value:
     >>> round(pressure_rate(8e-6, 1e-9), 6)
     8000.0
     """
-    check_above_zero(capacity=capacity)
+    check_positive(capacity=capacity)
     return flow / capacity
 
 
@@ -95,7 +94,7 @@ def modified_capacity(time: Value, flow: float, capacity: float, growth: float) 
     >>> round(modified_capacity(10.0, 1e-5, 1e-9, 5e-6) * 1e9, 9)
     1.5
     """
-    check_above_zero(capacity=capacity)
+    check_positive(capacity=capacity)
     result: Value = capacity + growth * flow * time
     if not np.all(np.asarray(result) > 0):
         raise InvalidInputError(
@@ -163,7 +162,7 @@ def pressure_system(pump: Pump, capacity: float) -> control.StateSpace:
     >>> float(system.B[0, 0].round(3))
     841.611
     """
-    check_above_zero(capacity=capacity)
+    check_positive(capacity=capacity)
     return control.ss(
         [[0.0]],
         [[pump.displacement / capacity]],

@@ -13,8 +13,8 @@ import numpy as np
 from filterpy.kalman import KalmanFilter
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats
-from softgrip.checks import check_above_zero, check_finite, check_not_negative, record
+from softgrip.arrays import Floats, check_positive
+from softgrip.checks import check_finite, check_not_negative, record
 
 
 def printed_filter(
@@ -56,7 +56,7 @@ def printed_filter(
         If a value is out of range.
     """
     check_finite(gain=gain, capacity=capacity, angle=angle)
-    check_above_zero(capacity_std=capacity_std, angle_std=angle_std, sensor=sensor)
+    check_positive(capacity_std=capacity_std, angle_std=angle_std, sensor=sensor)
     check_not_negative(capacity_step=capacity_step, angle_step=angle_step)
     kalman = KalmanFilter(dim_x=2, dim_z=1)
     kalman.x = np.array([[capacity], [angle]])

@@ -1,16 +1,13 @@
 """The physics of the simulated rig: pressure, leakage, torque, and the slopes of all states."""
 
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, Number
 from softgrip.pump.gas import charge_pressure
 from softgrip.simulator.chance import Chance
 from softgrip.simulator.parameters import FingerParameters, RigParameters
-
-Value = Any
-"""A float or an array: a law returns what it was given, and broadcasts."""
 
 AMOUNT, SENSED_PRESSURE, FINGERS = range(3)
 """Rows of the state: n R T (J), Pa gauge, then the rows of the fingers, then those of a contact."""
@@ -20,7 +17,7 @@ ANGLE, RATE, SENSED_ANGLE, MEMORY = range(4)
 memory."""
 
 
-def leak(gauge: Value, leakage: Value, atmosphere: float) -> Value:
+def leak(gauge: Number, leakage: Number, atmosphere: float) -> Number:
     """Return how fast n R T falls, W: laminar flow of an isothermal gas through a narrow gap.
 
     It goes with ``P**2 - P_atm**2``, which is ``p (p + 2 P_atm)`` in the gauge pressure p.
@@ -37,12 +34,12 @@ def leak(gauge: Value, leakage: Value, atmosphere: float) -> Value:
     return leakage / 2 * gauge * (gauge + 2 * atmosphere)
 
 
-def settled_torque(angle: Value, finger: FingerParameters) -> Value:
+def settled_torque(angle: Number, finger: FingerParameters) -> Number:
     """Return ``K theta**n``, odd, N m: the torque that holds an angle for good."""
     return finger.stiffness * angle * np.abs(angle) ** (finger.fractional_power - 1)
 
 
-def finger_volume(angle: Value, gauge: Value, finger: FingerParameters) -> Value:
+def finger_volume(angle: Number, gauge: Number, finger: FingerParameters) -> Number:
     """Return the air in the finger, m^3, at an angle (rad) and a gauge pressure (Pa)."""
     return finger.rest_volume + finger.torque_per_pressure * angle + finger.ballooning * gauge
 

@@ -1,8 +1,9 @@
 """What the simulated rig is made of: pump, gas, finger, sensors, and their spread over runs."""
 
 from dataclasses import dataclass, field, fields
-from math import isfinite
 
+from softgrip.arrays import check_positive
+from softgrip.checks import check_not_negative
 from softgrip.errors import InvalidInputError
 from softgrip.pump.gas import ATMOSPHERE
 from softgrip.units import DEG, ML, MM, PSI, REV
@@ -11,12 +12,8 @@ from softgrip.units import DEG, ML, MM, PSI, REV
 def _check(parameters: object, *, zero: tuple[str, ...] = ()) -> None:
     """Raise unless each number is finite and above zero, or, for those named, not below it."""
     for entry in fields(parameters):  # type: ignore[arg-type]
-        value = getattr(parameters, entry.name)
-        for number in value if isinstance(value, tuple) else (value,):
-            good = isfinite(number) and (number > 0 or (number == 0 and entry.name in zero))
-            if not good:
-                sign = ">=" if entry.name in zero else ">"
-                raise InvalidInputError(entry.name, expected=f"finite, {sign} 0", got=value)
+        check = check_not_negative if entry.name in zero else check_positive
+        check(**{entry.name: getattr(parameters, entry.name)})
 
 
 @dataclass(frozen=True)
