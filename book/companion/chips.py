@@ -5,7 +5,6 @@ from collections import Counter
 from dataclasses import dataclass
 from math import inf
 
-from book.companion.counts import counts_table
 from book.companion.verdict import Entry, Verdict, comes_out, ledger
 
 MARKS = {
@@ -77,6 +76,19 @@ def verdict_table(entries: list[Entry]) -> str:
         for where, found in places.items()
     )
     return f'<table class="ledger"><thead><tr>{head}</tr></thead>{bodies}</table>'
+
+
+def counts_table(entries: list[Entry]) -> str:
+    """Return the counts by chapter and verdict as a Markdown table."""
+    lines = [
+        "| chapter | " + " | ".join(Verdict) + " | claims |",
+        "|---" * (len(Verdict) + 2) + "|",
+    ]
+    for chapter in sorted({entry.claim.chapter for entry in entries}):
+        count = Counter(e.verdict for e in entries if e.claim.chapter == chapter)
+        cells = [str(count[verdict]) for verdict in Verdict]
+        lines.append(f"| {chapter} | " + " | ".join(cells) + f" | {count.total()} |")
+    return "\n".join(lines)
 
 
 @dataclass(frozen=True)

@@ -5,15 +5,15 @@ README; the change then shows in the diff.
 """
 
 import argparse
-import csv
 import json
 import re
 from collections import Counter
 from pathlib import Path
 
-from book.companion.counts import counts_table
+from book.companion.chips import counts_table
 from book.companion.verdict import ledger
-from softgrip.provenance import data_folder
+from softgrip.kept import write_data
+from softgrip.provenance import Provenance, data_folder, data_rows
 
 EXPECTED = "claims/expected.csv"
 BEGIN, END = "<!-- verdicts: written by make ledger -->", "<!-- end of verdicts -->"
@@ -21,9 +21,7 @@ BEGIN, END = "<!-- verdicts: written by make ledger -->", "<!-- end of verdicts 
 
 def expected() -> dict[str, str]:
     """Read the verdicts that were accepted, by claim."""
-    with (data_folder() / EXPECTED).open(encoding="utf-8") as stream:
-        rows = csv.DictReader(line for line in stream if not line.startswith("#"))
-        return {row["id"]: row["verdict"] for row in rows}
+    return {row["id"]: row["verdict"] for row in data_rows(EXPECTED)}
 
 
 def write_counts(readme: Path, table: str) -> None:
@@ -46,9 +44,12 @@ def main() -> None:
         print(f"{count:5} {verdict}")
     print(f"{len(entries):5} claims, written to {asked.into}")
     if asked.accept:
-        rows = "".join(f"{e.claim.id},{e.verdict}\n" for e in entries)
-        head = "# provenance: printed\n# source: book.companion.ledger --accept\n"
-        (data_folder() / EXPECTED).write_text(f"{head}id,verdict\n{rows}")
+        write_data(
+            data_folder() / EXPECTED,
+            "id,verdict\n" + "".join(f"{e.claim.id},{e.verdict}\n" for e in entries),
+            source="book.companion.ledger --accept",
+            provenance=Provenance.PRINTED,
+        )
     if Path("README.md").is_file():
         write_counts(Path("README.md"), counts_table(entries))
 

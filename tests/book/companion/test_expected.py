@@ -2,7 +2,7 @@
 
 import pytest
 
-from book.companion.counts import counts_table
+from book.companion.chips import counts_table
 from book.companion.ledger import BEGIN, END, expected
 from book.companion.verdict import ledger
 
