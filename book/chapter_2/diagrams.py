@@ -8,7 +8,7 @@ from matplotlib.patches import Polygon
 
 from book.companion.block_diagram import arrow, block, finish, sum_point, words
 from book.companion.exhibit import figure
-from book.companion.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, WIDTH
+from book.companion.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, sheet
 from softgrip.provenance import Provenance
 
 RUBBER = "#E8EEF4"
@@ -37,8 +37,7 @@ def _profiles() -> dict[str, Any]:
 )
 def figure_2_4() -> Figure:
     """Draw the elements under load."""
-    drawn = Figure(figsize=(WIDTH, 2.1))
-    axes = drawn.subplots()
+    drawn, axes = sheet(2.1)
     y = 0.45
     for k, (name, corners) in enumerate(_profiles().items()):
         middle = 3.0 * k
@@ -71,8 +70,7 @@ def figure_2_4() -> Figure:
 )
 def figure_2_6() -> Figure:
     """Draw the classifier's input and output."""
-    drawn = Figure(figsize=(WIDTH, 1.8))
-    axes = drawn.subplots()
+    drawn, axes = sheet(1.8)
     axes.text(0.75, 0, "$V = [v_1, \\ldots, v_8]^T$\n$0 \\leq v_i \\leq 1$", ha="center",
               va="center", linespacing=1.8)  # fmt: skip
     arrow(axes, (1.9, 0), (2.55, 0))
@@ -100,8 +98,7 @@ def figure_2_6() -> Figure:
 )
 def figure_2_12() -> Figure:
     """Draw the scheme of the force control."""
-    drawn = Figure(figsize=(WIDTH, 2.2))
-    axes = drawn.subplots()
+    drawn, axes = sheet(2.2)
     arrow(axes, (-0.1, 2), (0.6, 2), colour=BLUE)
     block(axes, 1.45, 2, "$F_l / 2\\mu$", BLUE, width=1.7)
     arrow(axes, (2.3, 2), (3.06, 2), colour=BLUE)

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from book.chapter_2.numbers import least_force_felt, read_threshold
 from book.companion.exhibit import figure, table
-from book.companion.style import BLUE, GREEN, GREY, ORANGE, PRINTED, WIDTH
+from book.companion.style import BLUE, GREEN, GREY, ORANGE, PRINTED, WIDTH, sheet
 from softgrip.actuator.elasticity import Elastic
 from softgrip.arrays import Floats
 from softgrip.provenance import Provenance
@@ -66,8 +66,7 @@ PRINTED_LEAST = {"cylinder": 0.1, "hemisphere": 0.02, "pyramid": 0.01}
 )
 def figure_2_3() -> Figure:
     """Draw resistance over load, and where it can be read."""
-    drawn = Figure(figsize=(WIDTH, 6.0))
-    upper, lower = drawn.subplots(2, 1)
+    drawn, (upper, lower) = sheet(6.0, 2, 1)
     threshold = read_threshold()
     for shape, element in ASSUMED.items():
         look: dict[str, Any] = {"color": COLOURS[shape], "ls": DASHES[shape]}
@@ -172,8 +171,7 @@ def figure_2_a() -> Figure:
 )
 def figure_2_b() -> Figure:
     """Draw compliance over the cut."""
-    drawn = Figure(figsize=(WIDTH, 4.2))
-    axes = drawn.subplots()
+    drawn, axes = sheet(4.2)
     cuts = np.linspace(0.05, 1, 96)
     kept = element_results.read("cut")
     for shape in SHAPES:

@@ -18,7 +18,7 @@ from book.chapter_2.forces import (
 )
 from book.chapter_2.numbers import mean_accuracy, mean_deviation
 from book.companion.exhibit import figure, table
-from book.companion.style import BLUE, GREEN, GREY, MEASURED, ORANGE, SKY, VERMILION, WIDTH
+from book.companion.style import BLUE, GREEN, GREY, MEASURED, ORANGE, SKY, VERMILION, sheet
 from softgrip.arrays import Floats
 from softgrip.provenance import Provenance
 from softgrip.tactile.force import Weighing, table_2_2
@@ -65,8 +65,7 @@ def draw_points(axes: Any) -> None:
 )
 def figure_2_8() -> Figure:
     """Draw the response of the layer, its cycles and its hysteresis."""
-    drawn = Figure(figsize=(WIDTH, 8.2))
-    first, second, third = drawn.subplots(3, 1)
+    drawn, (first, second, third) = sheet(8.2, 3, 1)
     voltage, force = weight_points()
     first.plot(force / GRAM_FORCE, voltage, "o", color=MEASURED, ms=3, label="weights")
     first.set(title="(a) response", xlabel="weight (gf)", ylabel="voltage (V)")
@@ -101,8 +100,7 @@ def figure_2_8() -> Figure:
 )
 def figure_2_9() -> Figure:
     """Draw the fits of four regressors."""
-    drawn = Figure(figsize=(WIDTH, 5.4))
-    panels = drawn.subplots(2, 2, sharex=True, sharey=True)
+    drawn, panels = sheet(5.4, 2, 2, sharex=True, sharey=True)
     voltage, force = weight_points()
     grid: Floats = np.linspace(0, 4.05, 811)
     errors, fitted = kept_comparison() / GRAM_FORCE, regressors()
@@ -134,8 +132,7 @@ def figure_2_9() -> Figure:
 )
 def figure_2_g() -> Figure:
     """Draw what the correction of drift repairs."""
-    drawn = Figure(figsize=(WIDTH, 6.0))
-    upper, lower = drawn.subplots(2, 1)
+    drawn, (upper, lower) = sheet(6.0, 2, 1)
     errors = kept_drift() / GRAM_FORCE
     within = errors.loc[SHOWN_START]
     over = (errors**2).groupby(level="start").mean() ** 0.5
@@ -164,8 +161,7 @@ def figure_2_g() -> Figure:
 )
 def figure_2_h() -> Figure:
     """Draw the error of what is left out over the bandwidth."""
-    drawn = Figure(figsize=(WIDTH, 3.4))
-    axes = drawn.subplots()
+    drawn, axes = sheet(3.4)
     voltage, force = weight_points()
     points, tried = voltage[:, None], tried_bandwidths(voltage[:, None])
     for whole, colour, dash in ((False, ORANGE, "--"), (True, BLUE, "-")):

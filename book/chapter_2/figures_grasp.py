@@ -18,7 +18,7 @@ from book.chapter_2.grasps import (
 )
 from book.chapter_2.numbers import lift_of_desired, pressed, simulated_lift, true_weight
 from book.companion.exhibit import figure, table
-from book.companion.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, WIDTH
+from book.companion.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, sheet
 from softgrip.provenance import Provenance
 from softgrip.simulator.pad_gripper import GraspGripper
 from softgrip.tactile.force_control import largest_loop_gain
@@ -46,8 +46,7 @@ from softgrip.tactile.friction import (
 )
 def figure_2_14() -> Figure:
     """Draw desired, measured and true force of the three grasps."""
-    drawn = Figure(figsize=(WIDTH, 6.6))
-    panels = drawn.subplots(3, 1, sharex=True)
+    drawn, panels = sheet(6.6, 3, 1, sharex=True)
     for axes, letter, name in zip(panels, "abc", OBJECTS, strict=True):
         made = study(name)
         low, high = np.percentile(made.measured, (5, 95), axis=0)
@@ -81,8 +80,7 @@ def figure_2_14() -> Figure:
 )
 def figure_2_i() -> Figure:
     """Draw the intervals of the friction coefficient."""
-    drawn = Figure(figsize=(WIDTH, 2.9))
-    axes = drawn.subplots()
+    drawn, axes = sheet(2.9)
     if common := common_friction():
         axes.axvspan(common.low, common.high, color=GREEN, alpha=0.3, lw=0, label="common")
     for row, (name, given) in enumerate(printed_grasps().items()):
@@ -123,8 +121,7 @@ def figure_2_i() -> Figure:
 )
 def figure_2_j() -> Figure:
     """Draw what each reading of the command makes of a grasp."""
-    drawn = Figure(figsize=(WIDTH, 5.6))
-    upper, lower = drawn.subplots(2, 1)
+    drawn, (upper, lower) = sheet(5.6, 2, 1)
     gripper = GraspGripper()
     upper.axhline(desired_force("egg"), color=ORANGE, label="desired")
     for made, colour, dash, words in (

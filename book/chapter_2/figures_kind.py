@@ -20,7 +20,7 @@ from book.chapter_2.kinds import (
 )
 from book.chapter_2.logs import OBJECTS, TRAINING, contacts
 from book.companion.exhibit import figure, table
-from book.companion.style import BLUE, GREY, ORANGE, PRINTED, VERMILION, WIDTH
+from book.companion.style import BLUE, GREY, ORANGE, PRINTED, VERMILION, WIDTH, sheet
 from softgrip.provenance import Provenance
 from softgrip.tactile.accuracy import Accuracy, counts_behind, mcnemar, overlaps
 from softgrip.tactile.contact_kind import NEIGHBOURS, bagged_neighbours, nearest_neighbours
@@ -43,8 +43,7 @@ def draw_neighbours(scores: Mapping[int, Sequence[SplitScore]]) -> Figure:
     scores
         By k, one for each split, such as from `kind_evaluation.split_score`.
     """
-    drawn = Figure(figsize=(WIDTH, 3.2))
-    axes = drawn.subplots()
+    drawn, axes = sheet(3.2)
     ks = sorted(scores)
     for name, colour, dash in (("training", BLUE, "-"), ("testing", ORANGE, "--")):
         part = "cross_validated" if name == "training" else "tested"
@@ -146,8 +145,7 @@ def figure_2_11() -> Figure:
 )
 def figure_2_e() -> Figure:
     """Draw the distribution of the gain by bagging."""
-    drawn = Figure(figsize=(WIDTH, 2.8))
-    axes = drawn.subplots()
+    drawn, axes = sheet(2.8)
     found = kept("draws")
     for name, label, colour, side in (
         ("bagged", "with replacement", BLUE, -0.2),

@@ -23,7 +23,7 @@ from book.companion.style import (
     PURPLE,
     SKY,
     VERMILION,
-    WIDTH,
+    sheet,
 )
 from softgrip.actuator.bending import Finger, free_bending
 from softgrip.actuator.design import DesignProblem, objective
@@ -72,8 +72,7 @@ def optimum() -> Section:
 )
 def figure_3_3() -> Figure:
     """Draw the section with its dimensions."""
-    drawn = Figure(figsize=(WIDTH, 3.6))
-    axes = drawn.subplots()
+    drawn, axes = sheet(3.6)
     draw_section(axes, optimum())
     best = optimum()
     a, b, w, t = (x / MM for x in (best.top, best.bottom, best.width, best.wall))
@@ -102,8 +101,7 @@ def figure_3_3() -> Figure:
 )
 def figure_3_a() -> Figure:
     """Draw what n each of three printed results asks for."""
-    drawn = Figure(figsize=(WIDTH, 3.4))
-    axes = drawn.subplots()
+    drawn, axes = sheet(3.4)
     powers = np.linspace(1, 2.6, 81)
     fingers = [Finger(optimum(), fractional_power=float(n)) for n in powers]
     problems = [DesignProblem(fractional_power=float(n)) for n in powers]
@@ -140,8 +138,7 @@ def figure_3_a() -> Figure:
 )
 def figure_3_b() -> Figure:
     """Draw the objective over the heights above and below the neutral surface."""
-    drawn = Figure(figsize=(WIDTH, 3.6))
-    axes = drawn.subplots()
+    drawn, axes = sheet(3.6)
     problem = DesignProblem(fractional_power=FREQUENCY_POWER)
     bounds = problem.bounds
     a, b = np.meshgrid(np.linspace(*bounds.top, 61), np.linspace(*bounds.bottom, 61))
@@ -185,8 +182,7 @@ def figure_3_b() -> Figure:
 )
 def figure_3_9() -> Figure:
     """Draw blocked torque over pressure: model and simulated rig."""
-    drawn = Figure(figsize=(WIDTH, 3.4))
-    axes = drawn.subplots()
+    drawn, axes = sheet(3.4)
     pressure = np.linspace(0, 0.25, 51) * MPa
     axes.plot(
         pressure / MPa, torque(optimum(), pressure), color=BLUE, label="Eq. (3.4), (E1) and (E2)"
@@ -215,8 +211,7 @@ def figure_3_9() -> Figure:
 )
 def figure_3_10() -> Figure:
     """Draw free bending over pressure: model and simulated rig."""
-    drawn = Figure(figsize=(WIDTH, 3.8))
-    axes = drawn.subplots()
+    drawn, axes = sheet(3.8)
     pressure = np.linspace(0, 0.15, 61) * MPa
     rubbers = (("(E1)", 0.34 * MPa, 2.5, BLUE), ("(E2)", FX_PRO, 1.538, ORANGE))
     for name, modulus, tabled, colour in rubbers:
@@ -245,8 +240,7 @@ def figure_3_10() -> Figure:
 )
 def figure_3_11() -> Figure:
     """Draw the bent finger at each pressure."""
-    drawn = Figure(figsize=(WIDTH, 4.2))
-    panels = drawn.subplots(2, 3, sharex=True, sharey=True)
+    drawn, panels = sheet(4.2, 2, 3, sharex=True, sharey=True)
     finger = Finger(optimum(), fractional_power=ANGLE_POWER)
     for axes, pressure in zip(panels.flat, np.linspace(0, 0.15, 6) * MPa, strict=True):
         angle = float(free_bending(finger, pressure))
@@ -302,8 +296,7 @@ def _judged(drawn: Figure, axes: Any, value: str) -> None:
 )
 def figure_3_5() -> Figure:
     """Draw torque over pressure: variances, finite elements, simulated test."""
-    drawn = Figure(figsize=(WIDTH, 6.4))
-    upper, lower = drawn.subplots(2, 1, sharex=True, sharey=True)
+    drawn, (upper, lower) = sheet(6.4, 2, 1, sharex=True, sharey=True)
     pressure = np.linspace(0, 0.25, 26) * MPa
     _variants(upper, pressure, lambda section: torque(section, pressure))
     upper.legend(loc="upper left", fontsize=8.5)
@@ -333,8 +326,7 @@ def figure_3_5() -> Figure:
 )
 def figure_3_6() -> Figure:
     """Draw bending angle over pressure: variances, finite elements, simulated test."""
-    drawn = Figure(figsize=(WIDTH, 6.4))
-    upper, lower = drawn.subplots(2, 1, sharex=True, sharey=True)
+    drawn, (upper, lower) = sheet(6.4, 2, 1, sharex=True, sharey=True)
     pressure = np.linspace(0, 0.15, 61) * MPa
 
     def bent(section: Any) -> Any:
@@ -369,8 +361,7 @@ def figure_3_6() -> Figure:
 )
 def figure_3_e() -> Figure:
     """Draw mesh convergence, and the influence of the grooves."""
-    drawn = Figure(figsize=(WIDTH, 5.6))
-    upper, lower = drawn.subplots(2, 1)
+    drawn, (upper, lower) = sheet(5.6, 2, 1)
     for chambers, colour in ((BEAM, VERMILION), (CHAMBERS, BLUE)):
         rows = [r for r in read("convergence") if r.chambers == chambers]
         finest = min(rows, key=lambda r: r.size)

@@ -11,7 +11,17 @@ from book.chapter_3.regulators import designed_on, regulator
 from book.chapter_4.identified_model import identified_model
 from book.companion.exhibit import figure, table
 from book.companion.simulated_logs import STEP, STEP_DURATION
-from book.companion.style import BLUE, GREEN, GREY, LINEAR, MEASURED, PRINTED, VERMILION, WIDTH
+from book.companion.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    LINEAR,
+    MEASURED,
+    PRINTED,
+    VERMILION,
+    WIDTH,
+    sheet,
+)
 from softgrip.control.limited_lqr import best_within_limit, limited_loop
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import FINGER, Weights, linear_settling_time, lqr_gain, step_response
@@ -96,8 +106,7 @@ def figure_3_12(logs: tuple[Path | str, ...] = ()) -> Figure:
 )
 def figure_3_c() -> Figure:
     """Draw poles and settling times over p."""
-    drawn = Figure(figsize=(WIDTH, 5.2))
-    poles_axes, time_axes = drawn.subplots(2, 1, sharex=True)
+    drawn, (poles_axes, time_axes) = sheet(5.2, 2, 1, sharex=True)
     p = np.logspace(0, 6, 37)
     poles = np.array([closed_loop_poles(FINGER, Weights(p=x)) for x in p]).real
     poles_axes.semilogx(p, poles[:, 0], color=BLUE, label="real pole")
@@ -143,8 +152,7 @@ def _settling_over_p(q2: float) -> Any:
 )
 def figure_3_d() -> Figure:
     """Draw the bound on any controller, and the regulator, over the step."""
-    drawn = Figure(figsize=(WIDTH, 3.2))
-    axes = drawn.subplots()
+    drawn, axes = sheet(3.2)
     steps = np.arange(10, 91, 10)
     model = identified_model()
     system = full_state_space(model.finger, model.pump_gain)

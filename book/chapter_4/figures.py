@@ -9,7 +9,17 @@ from matplotlib.figure import Figure
 from book.chapter_4.controllers import own_loop
 from book.chapter_4.identified_model import identified_model
 from book.companion.exhibit import figure
-from book.companion.style import GREY, LINEAR, LUDWICK, MEASURED, OTHER, PRINTED, VERMILION, WIDTH
+from book.companion.style import (
+    GREY,
+    LINEAR,
+    LUDWICK,
+    MEASURED,
+    OTHER,
+    PRINTED,
+    VERMILION,
+    WIDTH,
+    sheet,
+)
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.minimum_time import farthest
 from softgrip.dynamics.second_order import full_state_space
@@ -176,8 +186,7 @@ def _draw_capacity(axes: Any, time: Any, angle: Any, seen: Any, std: Any, gain: 
 )
 def figure_4_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw both controllers on their models and on a rig; ``logs`` gives two of another rig."""
-    drawn = Figure(figsize=(WIDTH, 5.2))
-    panels = drawn.subplots(2, 1, sharex=True, sharey=True)
+    drawn, panels = sheet(5.2, 2, 1, sharex=True, sharey=True)
     paths = logs or tuple(kept_log(name) for name in STEPS)
     titles = ("(a) designed on the finger alone", "(b) designed on finger and pump")
     for axes, path, design, title in zip(panels, paths, ("actuator", "full"), titles, strict=True):
@@ -210,8 +219,7 @@ def _draw_log(axes: Any, path: Path | str, *, lw: float | None) -> None:
 )
 def figure_4_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the staircase; ``logs`` gives one of another rig."""
-    drawn = Figure(figsize=(WIDTH, 3.2))
-    axes = drawn.subplots()
+    drawn, axes = sheet(3.2)
     _draw_log(axes, (logs or (kept_log("staircase"),))[0], lw=None)
     axes.set(xlabel="time (s)", ylabel="angle (deg)")
     axes.legend(loc="upper right")
@@ -230,8 +238,7 @@ def figure_4_7(logs: tuple[Path | str, ...] = ()) -> Figure:
 )
 def figure_4_c() -> Figure:
     """Draw the farthest angle that can be reached over time."""
-    drawn = Figure(figsize=(WIDTH, 3.0))
-    axes = drawn.subplots()
+    drawn, axes = sheet(3.0)
     time, model = np.linspace(0, 0.6, 25), identified_model()
     reached = farthest(full_state_space(model.finger, model.pump_gain), SPEED_LIMIT, time)
     axes.plot(time, reached / DEG, color=LUDWICK)

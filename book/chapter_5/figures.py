@@ -8,7 +8,7 @@ from matplotlib.ticker import MultipleLocator
 from scipy.stats import spearmanr
 
 from book.companion.exhibit import figure
-from book.companion.style import GREY, LUDWICK, MEASURED, OTHER, PRINTED, VERMILION, WIDTH
+from book.companion.style import GREY, LUDWICK, MEASURED, OTHER, PRINTED, VERMILION, WIDTH, sheet
 from softgrip.arrays import Floats
 from softgrip.materials import ludwick, tensile, yeoh
 from softgrip.materials.facts import facts
@@ -58,8 +58,7 @@ def draw_curves(axes: Any, material: Material, power: float) -> None:
 )
 def figure_5_1() -> Figure:
     """Draw the stress-strain curves of the ten elastomers against Ludwick's law."""
-    drawn = Figure(figsize=(WIDTH, 8.2))
-    panels = drawn.subplots(5, 2)
+    drawn, panels = sheet(8.2, 5, 2)
     for axes, material in zip(panels.flat, table_5_1().values(), strict=True):
         draw_curves(axes, material, material.fractional_power)
         axes.set_title(material.name, fontsize=9.5)
@@ -115,8 +114,7 @@ def figure_5_2() -> Figure:
 )
 def figure_5_a() -> Figure:
     """Draw n over the longest strain of the fit."""
-    drawn = Figure(figsize=(WIDTH, 8.2))
-    panels = drawn.subplots(5, 2, sharex=True)
+    drawn, panels = sheet(8.2, 5, 2, sharex=True)
     for axes, material in zip(panels.flat, table_5_1().values(), strict=True):
         peak = facts()[material.name].peak_strain
         used = [min(limit, peak) for limit in LONGEST_STRAINS]
@@ -152,8 +150,7 @@ def figure_5_a() -> Figure:
 )
 def figure_5_b() -> Figure:
     """Draw leave-one-out predictions over the printed values."""
-    drawn = Figure(figsize=(WIDTH, 4.0))
-    axes = drawn.subplots()
+    drawn, axes = sheet(4.0)
     axes.plot([0.8, 2.8], [0.8, 2.8], color=GREY, lw=1, label="exact")
     styles = (("Eq. (5.8)", LUDWICK, "o"), ("mean of the others", VERMILION, "_"))
     for name, colour, marker in styles:

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from book.companion.exhibit import figure
-from book.companion.style import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILION, WIDTH
+from book.companion.style import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILION, sheet
 from softgrip.actuator.cantilever import angle_limit, closed_form_error
 from softgrip.provenance import Provenance
 from softgrip.units import DEG
@@ -29,8 +29,7 @@ COLOURS = (ORANGE, VERMILION, GREEN, PURPLE, BLUE)
 )
 def figure_5_d() -> Figure:
     """Draw the relative error of the closed form over the tip angle."""
-    drawn = Figure(figsize=(WIDTH, 3.6))
-    axes = drawn.subplots()
+    drawn, axes = sheet(3.6)
     degrees = np.arange(1.0, 61.0)
     for error in LIMITS:
         axes.plot([0, 60], [100 * error] * 2, color=GREY, lw=0.8)

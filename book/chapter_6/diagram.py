@@ -4,7 +4,7 @@ from matplotlib.figure import Figure
 
 from book.companion.block_diagram import arrow, block, finish, sum_point, words
 from book.companion.exhibit import figure
-from book.companion.style import BLUE, GREY, VERMILION, WIDTH
+from book.companion.style import BLUE, GREY, VERMILION, sheet
 from softgrip.provenance import Provenance
 
 
@@ -21,8 +21,7 @@ from softgrip.provenance import Provenance
 )
 def figure_6_3() -> Figure:
     """Draw the scheme of feedforward and feedback."""
-    drawn = Figure(figsize=(WIDTH, 2.5))
-    axes = drawn.subplots()
+    drawn, axes = sheet(2.5)
     arrow(axes, (0.0, 2.0), (0.75, 2.0), colour=BLUE)
     block(axes, 1.4, 2.0, "$H P^\\dagger$", BLUE, width=1.3, height=0.6)
     arrow(axes, (2.05, 2.0), (2.86, 2.0), colour=BLUE)

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from book.companion.exhibit import figure
-from book.companion.style import BLUE, GREEN, GREY, ORANGE, PRINTED, PURPLE, VERMILION, WIDTH
+from book.companion.style import BLUE, GREEN, GREY, ORANGE, PRINTED, PURPLE, VERMILION, sheet
 from softgrip.gripper.internal_model import controller_matrices
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.loop_shaping import fit_roll_off
@@ -48,8 +48,7 @@ def push(time: float) -> tuple[float, float]:
 )
 def figure_6_6() -> Figure:
     """Draw the step, the step with noise, and the step with a push."""
-    drawn = Figure(figsize=(WIDTH, 6.0))
-    panels = drawn.subplots(3, 1, sharex=True, sharey=True)
+    drawn, panels = sheet(6.0, 3, 1, sharex=True, sharey=True)
     runs = {
         "(a) nominal": run_printed(period=FINE),
         "(b) sensor noise": run_printed(noise=2 * DEG),
@@ -79,8 +78,7 @@ def figure_6_6() -> Figure:
 )
 def figure_6_a() -> Figure:
     """Draw the unreachable share over frequency and the synchronization error over time."""
-    drawn = Figure(figsize=(WIDTH, 4.8))
-    upper, lower = drawn.subplots(2, 1)
+    drawn, (upper, lower) = sheet(4.8, 2, 1)
     frequency = np.geomspace(0.05, 100, 300)
     for goal, words, colour, dash in (
         (np.ones(2), "equal angles", VERMILION, "-"),
@@ -111,8 +109,7 @@ def figure_6_a() -> Figure:
 )
 def figure_6_b() -> Figure:
     """Draw the gain of the printed and the re-derived filters."""
-    drawn = Figure(figsize=(WIDTH, 3.4))
-    axes = drawn.subplots()
+    drawn, axes = sheet(3.4)
     for (name, printed), colour in zip(FILTERS.items(), (BLUE, ORANGE), strict=True):
         low_pass = filter_state_space(*printed)
         _, ours = fit_roll_off(crossover(name), low_pass, COMPARED)
@@ -138,8 +135,7 @@ def figure_6_b() -> Figure:
 )
 def figure_6_c() -> Figure:
     """Draw the stability margin over the period, by discretisation and delay."""
-    drawn = Figure(figsize=(WIDTH, 3.4))
-    axes = drawn.subplots()
+    drawn, axes = sheet(3.4)
     periods = np.linspace(0.01, 0.3, 30)
     corners = box(GRIPPER, points=2)
     for delay, colour in enumerate((BLUE, ORANGE, PURPLE)):

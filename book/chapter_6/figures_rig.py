@@ -11,7 +11,17 @@ from book.chapter_6 import speed as gripper_speed
 from book.chapter_6.logs import names_of
 from book.chapter_6.results import BAND_SHARE
 from book.companion.exhibit import figure
-from book.companion.style import BLUE, GREEN, GREY, ORANGE, PRINTED, SKY, VERMILION, WIDTH, YELLOW
+from book.companion.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PRINTED,
+    SKY,
+    VERMILION,
+    YELLOW,
+    sheet,
+)
 from softgrip.arrays import Floats
 from softgrip.control.step_metrics import final_value
 from softgrip.errors import InvalidInputError
@@ -76,8 +86,7 @@ WEIGHT = (
 def figure_6_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw repeated steps and their deviations; ``logs`` gives runs of another gripper."""
     (runs,) = groups(logs, ("open",))
-    drawn = Figure(figsize=(WIDTH, 6.2))
-    steps, weights = drawn.subplots(2, 1)
+    drawn, (steps, weights) = sheet(6.2, 2, 1)
     frequency = np.geomspace(0.5, 80, 100)
     _bands(weights, runs, PRINTED_BAND["6.4"])
     for k, (models, (side, colour, dash)) in enumerate(
@@ -119,8 +128,7 @@ def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     both = groups(logs, ("open", "low-speed"))
     spreads = {spread.speed: spread for spread in gripper_speed.kept_errors()}
     words = (("high speed", BLUE, "-", 5.0), ("low speed", ORANGE, "--", 0.1))
-    drawn = Figure(figsize=(WIDTH, 7.4))
-    steps, weights, errors = drawn.subplots(3, 1)
+    drawn, (steps, weights, errors) = sheet(7.4, 3, 1)
     for runs, (label, colour, dash, speed) in zip(both, words, strict=True):
         pushed = runs.time[np.flatnonzero(runs.commands[0])[-1]]
         angles = runs.angles[:, 0] / DEG
@@ -160,8 +168,7 @@ def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
 def figure_6_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the three experiments; ``logs`` gives others: open, 4.8/s, 2/s, pushed."""
     free, fast, slow, pushed = groups(logs, ("open", "fast", "slow", "push"))
-    drawn = Figure(figsize=(WIDTH, 7.4))
-    panels = drawn.subplots(3, 1)
+    drawn, panels = sheet(7.4, 3, 1)
     for k, (side, colour, dash) in enumerate(SIDES):
         _steps(panels[0], free, k, colour, dash, side)
         panels[1].plot(slow.time, slow.angles[:, k].mean(axis=0) / DEG, dash, color=colour,

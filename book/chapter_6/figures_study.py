@@ -16,7 +16,7 @@ from book.companion.style import (
     OTHER,
     PURPLE,
     VERMILION,
-    WIDTH,
+    sheet,
 )
 from softgrip.gripper.batch_loop import unaware
 from softgrip.gripper.gripper_batch import GripperBatch, Trial, can_rest, draw_grippers
@@ -74,8 +74,7 @@ def outcome(name: str, *, pairs: int = PAIRS) -> Outcome:
 )
 def figure_6_d() -> Figure:
     """Draw what more fingers and more spread cost."""
-    drawn = Figure(figsize=(WIDTH, 5.0))
-    top, low = drawn.subplots(2, 1, sharex=True)
+    drawn, (top, low) = sheet(5.0, 2, 1, sharex=True)
     points = finger_count.KEPT.read()
     styles = zip((BLUE, ORANGE, GREEN, PURPLE), ("-", "--", "-.", ":"), strict=True)
     for count, (colour, line) in zip(finger_count.COUNTS, styles, strict=True):
@@ -108,8 +107,7 @@ def figure_6_d() -> Figure:
 )
 def figure_6_e() -> Figure:
     """Draw the histograms of settling time and synchronization."""
-    drawn = Figure(figsize=(WIDTH, 5.6))
-    top, low = drawn.subplots(2, 1)
+    drawn, (top, low) = sheet(5.6, 2, 1)
     for name in COLOURS:
         found = outcome(name)
         when = found.settling[1].max(axis=1)
@@ -146,8 +144,7 @@ def figure_6_e() -> Figure:
 )
 def figure_6_f() -> Figure:
     """Draw the least difference over the settling time."""
-    drawn = Figure(figsize=(WIDTH, 3.6))
-    axes = drawn.subplots()
+    drawn, axes = sheet(3.6)
     styles = ((BLACK, "-"), (BLUE, "--"), (VERMILION, "-."))
     for (name, limit), (colour, line) in zip(LIMITS.items(), styles, strict=True):
         best = list(trade_off(PRINTED, TARGET, limit=limit, latest=2.5))

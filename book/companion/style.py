@@ -62,6 +62,15 @@ def style() -> Iterator[None]:
         yield
 
 
+def sheet(height: float, rows: int = 1, columns: int = 1, **shared: Any) -> tuple[Figure, Any]:
+    """Return a figure of the book's width, ``height`` inches high, and its axes.
+
+    They are one, or an array of several; ``shared`` is as for `Figure.subplots`.
+    """
+    drawn = Figure(figsize=(WIDTH, height))
+    return drawn, drawn.subplots(rows, columns, **shared)
+
+
 def still(height: float, *, left: float = 0.14) -> tuple[Figure, Any]:
     """Return a figure and its axes for frames that are shown one after the other.
 
