@@ -20,18 +20,14 @@ from softgrip.provenance import Provenance, data_file
 from softgrip.reads import remembered
 from softgrip.simulator.chance import SEED, streams
 from softgrip.simulator.pad import convert, make_pad, press, to_volts, voltages
+from softgrip.simulator.pad_hand import FORCES, FULL, draw_pose
 from softgrip.simulator.pad_objects import FOODS, OTHERS, PadObject
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_surface import Pose
 from softgrip.tactile.contact_pose import PlaceErrors, place_errors
 from softgrip.tactile.contacts import ELEMENTS, Contacts
 from softgrip.tactile.pad_layout import THREE_TWO_THREE
-from softgrip.units import DEG, MM
 
-FORCES = (0.05, 0.3)
-"""Least and largest contact force, N (assumed: they hold the three grasps of Section 2.4)."""
-REACH = {"point": (12 * MM, 11 * MM), "line": (4 * MM, 4 * MM), "surface": (3 * MM, 3 * MM)}
-"""Largest offset of an object's middle along and across the pad, m (assumed)."""
 BETWEEN = 10.0
 """Time from contact to contact, s (assumed)."""
 
@@ -70,17 +66,6 @@ PAD_TESTS = {
 """The logs by name."""
 
 
-def draw_pose(item: PadObject, tilt: float, chance: np.random.Generator) -> Pose:
-    """Return a random pose: uniform place and angle, normal tilt with a deviation in rad."""
-    reach = REACH[item.kind]
-    x, y = (float(chance.uniform(-r, r)) for r in reach)
-    angle = float(chance.uniform(-90 * DEG, 90 * DEG))
-    along, across = (float(tilt * value) for value in chance.standard_normal(2))
-    # A round object rolls until it is level: there is no way to hold it otherwise.
-    level = {"point": (0.0, 0.0), "line": (along, 0.0), "surface": (along, across)}
-    return Pose((x, y), angle, level[item.kind])
-
-
 def draw_contacts(
     test: PadTest, tilt: float, chance: np.random.Generator
 ) -> Iterator[tuple[PadObject, Pose, float]]:
@@ -93,8 +78,6 @@ def draw_contacts(
         yield item, pose, round(float(chance.uniform(*FORCES)), 3)
 
 
-FULL = 0.3
-"""Force that brings an element to the end of its range, N: above the 0.2 N of Section 2.2."""
 ROUND = 9
 """Digits after the point in a log: a nanometre, a nanoradian."""
 

@@ -1,38 +1,80 @@
-"""A log of the pad on a board: its nine channels, as they come at 40 Hz."""
+"""A log of the pad, on a board or simulated: its nine channels, as they come at 40 Hz."""
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Protocol
 
 from softgrip.arrays import check_positive
-from softgrip.board.driver import Rig
-from softgrip.board.protocol import CHANNELS, TELEMETRY_PERIOD
+from softgrip.board.protocol import TELEMETRY_PERIOD
 from softgrip.board.telemetry import Telemetry
+from softgrip.logs.contacts import PRESS, REST, WEIGHT
 from softgrip.logs.queued_writer import RunLog, plain
-from softgrip.logs.schema import PAD_CHANNELS
+from softgrip.logs.schema import PAD_CHANNELS, LogHeader
 from softgrip.rig.record import Progress, Recording, show_progress
 from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.tactile.contacts import ELEMENTS
+
+BOARD = PadParameters()
+"""Whose converter the board has."""
+Step = tuple[str, float]
+"""What is done with the pad, as an event of `softgrip.logs.contacts`, and for how long, s."""
+
+
+class PadSource(Protocol):
+    """What a pad is heard through: a board of either set-up, or a `SimulatedPad`."""
+
+    def header(self) -> LogHeader:
+        """Return what a log says of it."""
+        ...
+
+    def listen(self) -> Telemetry:
+        """Wait for the next sample and return it: all channels, in counts."""
+        ...
+
+    def take_event(self) -> str:
+        """Return words on what happened since the last call, empty if nothing."""
+        ...
+
+
+def calibration_steps(seconds: float = 2.5) -> list[Step]:
+    """Return the steps that a log begins with: the pad at rest, then each element alone."""
+    return [(words, seconds) for words in (REST, *(f"{PRESS}{k + 1}" for k in range(ELEMENTS)))]
+
+
+def weight_steps(weights: Sequence[float], seconds: float = 2.5) -> list[Step]:
+    """Return steps with known weights, gram-force.
+
+    >>> weight_steps([5, 20])
+    [('weight: 5 gf', 2.5), ('weight: 20 gf', 2.5)]
+    """
+    return [(f"{WEIGHT}{weight:g} gf", seconds) for weight in weights]
 
 
 def record_pad(
-    rig: Rig,
-    duration: float,
+    rig: PadSource,
+    steps: float | Sequence[Step],
     path: Path | str,
     *,
     shows: str = "",
+    say: Callable[[str], None] = print,
     progress: Progress = show_progress,
 ) -> Recording:
-    """Write down what the pad says for some seconds; nothing moves.
+    """Write down what the pad says while it is touched; nothing moves.
 
     Parameters
     ----------
     rig
-        A board of either set-up: both sample the pad's channels.
-    duration
-        s, > 0.
+        A board of either set-up (both sample the pad's channels), or a `SimulatedPad`.
+    steps
+        What is done, one after the other: the words of each stand as an event where it begins. Or
+        s, > 0, of which nothing is said yet: `read_contacts` takes the words as labels.
     path
         Of the log, which must not exist.
     shows
-        What touches the pad, one line. The force is not known, and stands as 0 in the log.
+        What the log shows, one line. Forces of contacts are not known, and stand as 0 in it.
+    say
+        Told the words when a step begins, so that who is at the pad knows what to do.
     progress
         Told of each sample.
 
@@ -41,22 +83,29 @@ def record_pad(
     BoardError
         If the line is lost. The log is closed and its last row says it.
     InvalidInputError
-        If the path exists, or the duration is out of range.
+        If the path exists, or a duration is out of range.
     """
-    check_positive(duration=duration)
+    given: Sequence[Step] = steps if isinstance(steps, Sequence) else [("", steps)]
+    for _, seconds in given:
+        check_positive(duration=seconds)
+    duration = sum(seconds for _, seconds in given)
     notes = {"shows": plain(shows)} if shows else {}
     header = replace(rig.header(), set_up="pad", period=TELEMETRY_PERIOD, notes=notes)
-    told, start, samples = rig.listen(), rig.line.time, 0
+    start, samples, end = None, 0, 0.0
     with RunLog(Path(path), header) as log:
         try:
-            while True:
-                time = rig.line.time - start
-                log.write(event=plain(rig.take_event()), **_row(told, time))
-                samples += 1
-                progress(min(time, duration), duration)
-                if time > duration - TELEMETRY_PERIOD / 2:
-                    break
-                told = rig.listen()
+            for words, seconds in given:
+                if words:
+                    say(words)
+                time, end, event = -1.0, end + seconds, words
+                while time <= end - TELEMETRY_PERIOD / 2:
+                    told = rig.listen()
+                    start = told.time if start is None else start
+                    time = told.time - start
+                    event = "; ".join(filter(None, (plain(event), plain(rig.take_event()))))
+                    log.write(event=event, **_row(told, time))
+                    event, samples = "", samples + 1
+                    progress(min(time, duration), duration)
         except BaseException as error:
             log.note(f"ended by {type(error).__name__}: {error}")
             raise
@@ -64,11 +113,10 @@ def record_pad(
 
 
 def _row(told: Telemetry, time: float) -> dict[str, float]:
-    board = PadParameters()
-    counts = {name: told.channels[CHANNELS.index(name)] for name in PAD_CHANNELS}
+    counts = dict(zip(PAD_CHANNELS, told.channels, strict=False))
     return {
         "time": round(time, 9),
         "command": 0.0,
         **{f"{name}_counts": count for name, count in counts.items()},
-        **{name: count * board.supply / board.levels for name, count in counts.items()},
+        **{name: count * BOARD.supply / BOARD.levels for name, count in counts.items()},
     }

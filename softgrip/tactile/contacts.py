@@ -1,6 +1,6 @@
 """Contacts of the pad: what its elements said, and what touched it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Self
 
 import numpy as np
@@ -46,14 +46,18 @@ def check_responses(responses: ArrayLike, elements: int = ELEMENTS) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
-    """N contacts with their truth.
+    """N contacts, and what is known of them.
 
     Attributes
     ----------
     responses
         Of the elements, normalised: 0 at rest, 1 at full range, shape (N, 8); V of Eq. (2.3).
+    layer
+        Voltage of the force layer, V, shape (N,).
+    times
+        When they were felt, s, shape (N,).
     kinds
-        "point", "line" or "surface", shape (N,).
+        "point", "line" or "surface", shape (N,); empty where it is not known.
     objects
         Names of what touched, shape (N,).
     places
@@ -61,7 +65,8 @@ class Contacts:
     angles
         Of a line against the pad's length, rad, -pi/2 to pi/2, shape (N,); NaN unless a line.
     forces
-        Contact force, N, > 0, shape (N,).
+        Contact force, N, > 0, shape (N,). Places, angles and forces are all NaN for contacts of a
+        pad that nobody knows the truth of.
 
     Raises
     ------
@@ -70,6 +75,8 @@ class Contacts:
     """
 
     responses: Floats
+    layer: Floats
+    times: Floats
     kinds: Strings
     objects: Strings
     places: Floats
@@ -77,23 +84,21 @@ class Contacts:
     forces: Floats
 
     def __post_init__(self) -> None:
-        responses = read_only(check_responses(self.responses))
-        n = len(responses)
-        kinds, objects = np.asarray(self.kinds, dtype=str), np.asarray(self.objects, dtype=str)
-        places, angles, forces = map(read_only, (self.places, self.angles, self.forces))
-        shapes = {
-            "responses": (responses.shape, (n, ELEMENTS)),
-            "kinds": (kinds.shape, (n,)),
-            "objects": (objects.shape, (n,)),
-            "places": (places.shape, (n, 2)),
-            "angles": (angles.shape, (n,)),
-            "forces": (forces.shape, (n,)),
-        }
-        for name, (got, expected) in shapes.items():
-            if got != expected:
-                raise InvalidInputError(name, expected=f"shape {expected}", got=got)
-        if unknown := sorted(set(kinds.tolist()) - set(KINDS)):
-            raise InvalidInputError("kinds", expected=f"each one of {KINDS}", got=unknown)
+        n = len(check_responses(self.responses))
+        width = {"responses": (ELEMENTS,), "places": (2,)}
+        for one in fields(self):
+            given = getattr(self, one.name)
+            words = one.name in ("kinds", "objects")
+            value = np.asarray(given, dtype=str) if words else read_only(given)
+            shape = (n, *width.get(one.name, ()))
+            if value.shape != shape:
+                raise InvalidInputError(one.name, expected=f"shape {shape}", got=value.shape)
+            object.__setattr__(self, one.name, value)
+        kinds, places, angles, forces = self.kinds, self.places, self.angles, self.forces
+        if unknown := sorted(set(kinds.tolist()) - {*KINDS, ""}):
+            raise InvalidInputError("kinds", expected=f"each one of {KINDS}, or ''", got=unknown)
+        if np.isnan(places).all() and np.isnan(angles).all() and np.isnan(forces).all():
+            return
         if not np.isfinite(places).all():
             raise InvalidInputError("places", expected="finite numbers", got="NaN or infinity")
         if not ((forces > 0) & np.isfinite(forces)).all():
@@ -103,9 +108,6 @@ class Contacts:
             raise InvalidInputError(
                 "angles", expected="-pi/2 to pi/2 for lines, NaN for others", got=angles.tolist()
             )
-        found = (responses, kinds, objects, places, angles, forces)
-        for name, value in zip(shapes, found, strict=True):
-            object.__setattr__(self, name, value)
 
     def __len__(self) -> int:
         return len(self.responses)
@@ -113,11 +115,4 @@ class Contacts:
     def take(self, chosen: ArrayLike) -> Self:
         """Return some of the contacts, chosen as by an index of NumPy (a mask, or numbers)."""
         index = np.asarray(chosen)
-        return type(self)(
-            self.responses[index],
-            self.kinds[index],
-            self.objects[index],
-            self.places[index],
-            self.angles[index],
-            self.forces[index],
-        )
+        return type(self)(**{one.name: getattr(self, one.name)[index] for one in fields(self)})

@@ -116,8 +116,9 @@ def read_readings(
     (first, names), rows = lines[0], lines[1:]
     chosen = tuple(channels) or tuple(name for name in names if name != label)
     if missing := [name for name in (*chosen, label) if name not in names]:
+        hint = "; a log is read by softgrip.logs.contacts" if names[-1] == "event" else ""
         raise DataFileError(
-            file, expected=f"columns {', '.join(missing)}", got=", ".join(names), line=first
+            file, expected=f"columns {', '.join(missing)}", got=", ".join(names) + hint, line=first
         )
     for number, row in rows:
         if len(row) != len(names):

@@ -110,7 +110,7 @@ def test_errors_are_by_hand():
     felt[0, 1], felt[1, [1, 6]] = 0.5, 0.5  # (0, 10) mm; the y axis
     found = place_errors(
         Contacts(
-            felt, ["point", "line", "surface"], ["a", "b", "c"],
+            felt, np.zeros(3), np.arange(3.0), ["point", "line", "surface"], ["a", "b", "c"],
             [[3e-3, 6e-3], [4e-3, 1e-3], [0, 0]], [np.nan, np.pi / 2, np.nan], [0.1, 0.1, 0.1],
         ),
         PAD,

@@ -8,6 +8,8 @@ from softgrip.tactile.contacts import Contacts, check_responses
 
 GOOD = {
     "responses": np.linspace(0, 1, 24).reshape(3, 8),
+    "layer": [0.5, 1.0, 1.5],
+    "times": [1.0, 2.0, 3.0],
     "kinds": ["point", "line", "surface"],
     "objects": ["egg", "hot dog", "tofu"],
     "places": np.zeros((3, 2)),
@@ -32,6 +34,7 @@ def test_contacts_can_be_taken_by_mask_and_cannot_be_written_to():
         ({"responses": np.full((3, 8), 1.1)}, "between 0 and 1, got 1.1"),
         ({"kinds": ["point", "line"]}, r"kinds: expected shape \(3,\)"),
         ({"kinds": ["point", "line", "edge"]}, "edge"),
+        ({"layer": [0.5, 1.0]}, r"layer: expected shape \(3,\)"),
         ({"places": np.full((3, 2), np.inf)}, "places: expected finite"),
         ({"angles": [np.nan, np.nan, np.nan]}, "angles"),
         ({"angles": [0.1, 0.3, np.nan]}, "angles"),
@@ -42,6 +45,14 @@ def test_contacts_can_be_taken_by_mask_and_cannot_be_written_to():
 def test_what_is_not_as_said_is_refused(change, message):
     with pytest.raises(InvalidInputError, match=message):
         Contacts(**GOOD | change)
+
+
+def test_kinds_and_truth_may_be_unknown_but_no_half_of_the_truth():
+    nothing = {"places": np.full((3, 2), np.nan), "angles": [np.nan] * 3, "forces": [np.nan] * 3}
+    assert len(Contacts(**GOOD | nothing | {"kinds": ["", "line", ""]})) == 3
+    for name in ("places", "forces"):
+        with pytest.raises(InvalidInputError, match=name):
+            Contacts(**GOOD | {name: nothing[name]})
 
 
 def test_one_reading_is_checked_as_many_are():

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.provenance import data_file
 from softgrip.tactile.own_pad import PadReadings, read_readings
 from softgrip.units import GRAM_FORCE
 
@@ -83,3 +84,8 @@ def test_readings_that_do_not_fit_together_are_refused(change, message):
     }
     with pytest.raises(InvalidInputError, match=message):
         PadReadings(**given | change)
+
+
+def test_log_of_the_rig_is_refused_with_what_reads_it():
+    with pytest.raises(DataFileError, match=r"columns kind.*read by softgrip\.logs\.contacts"):
+        read_readings(data_file("simulated/pad-objects.csv").path, label="kind")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from book.chapter_2.logs import FORCES, PAD_TESTS, TRAINING, contacts, errors
+from book.chapter_2.logs import PAD_TESTS, TRAINING, contacts, errors
 from book.companion.simulated_logs import COMMAND, make
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.logs.contacts import read_contacts
@@ -11,6 +11,7 @@ from softgrip.logs.reader import read_log
 from softgrip.logs.schema import PAD_COLUMNS, LogHeader
 from softgrip.provenance import Provenance, data_file
 from softgrip.simulator.pad import to_volts
+from softgrip.simulator.pad_hand import FORCES
 from softgrip.simulator.pad_objects import FOODS
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.units import DEG, MM
