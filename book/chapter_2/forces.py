@@ -5,7 +5,7 @@ errors of many simulated hours with and without the correction of Section 2.3 fo
 ``data/tactile/force_drift.csv``, in half a minute.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 
@@ -121,9 +121,8 @@ HOURS = 40
 FIRST = 100
 """Number of the first of their runs: beyond those of the logs."""
 
-ToForce = Callable[[Floats], Floats]
 
-
+@cache
 def calibrated() -> Floats:
     """Return the mean voltage of each weight for the drift among the 69 points, V, shape (4,)."""
     voltage, force = weight_points()
@@ -131,9 +130,7 @@ def calibrated() -> Floats:
     return np.array([voltage[rows].mean() for rows in same])
 
 
-def hour_errors(
-    time: Floats, voltage: Floats, force: Floats, reference: Floats, to_force: ToForce
-) -> pd.DataFrame:
+def hour_errors(time: Floats, voltage: Floats, force: Floats) -> pd.DataFrame:
     """Return the errors of the readings between the weights for the drift.
 
     Parameters
@@ -141,10 +138,6 @@ def hour_errors(
     time, voltage, force
         s, V and N (true), shape (readings,), of an hour that begins and ends with
         `DRIFT_WEIGHTS`.
-    reference
-        Voltages of these weights at the calibration, V.
-    to_force
-        From voltages to N.
 
     Returns
     -------
@@ -158,7 +151,7 @@ def hour_errors(
     InvalidInputError
         If the hour does not begin and end so: a row is missing there.
     """
-    count = len(DRIFT_WEIGHTS)
+    count, reference = len(DRIFT_WEIGHTS), calibrated()
     for ends in (force[:count], force[-count:]):
         if ends.size < count or not np.allclose(ends, np.array(DRIFT_WEIGHTS) * GRAM_FORCE):
             raise InvalidInputError(
@@ -181,11 +174,11 @@ def hour_errors(
 
 def drift_errors() -> pd.DataFrame:
     """Return root mean square errors, N, by start (h) and round of the four weights (1 to 5)."""
-    found, reference = [], calibrated()
+    found = []
     for start in AGES:
         for hour in range(HOURS):
             run = long_run(start, seed=SEED, run=FIRST + hour)
-            errors = hour_errors(run.time, run.voltage, run.force, reference, to_force)
+            errors = hour_errors(run.time, run.voltage, run.force)
             # Rounds, so that all parts of the hour have the same weights.
             number = np.arange(len(errors)) // len(LONG_WEIGHTS) + 1
             found.append(errors.drop(columns="time").assign(start=start, round=number))

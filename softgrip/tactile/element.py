@@ -5,13 +5,11 @@ leaves out, the clamped base and a small top that sinks into a wide body, is lef
 `softgrip.tactile.element_fem`.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import acosh, inf, isfinite, pi, sqrt
 from typing import Literal, get_args
 
 import numpy as np
-from scipy.integrate import quad
 
 from softgrip.arrays import Value, check_positive
 from softgrip.errors import InvalidInputError
@@ -151,35 +149,6 @@ def compliance(element: Element, young_modulus: float = STATED_MODULUS) -> float
     if k == 1:
         return block
     return block * (1 / k if element.shape == "pyramid" else acosh(1 / k) / sqrt(1 - k**2))
-
-
-def compliance_of(
-    area: Callable[[float], float], height: float, young_modulus: float = STATED_MODULUS
-) -> float:
-    """Return shortening by force, m/N, by quadrature for any cross-section.
-
-    Parameters
-    ----------
-    area
-        A(y), m^2, smooth and above zero from y = 0 to the height.
-    height
-        L, m.
-    young_modulus
-        E, Pa.
-
-    Raises
-    ------
-    InvalidInputError
-        If the cross-section is not above zero at either end: with a sharp top the integral
-        diverges.
-    """
-    check_positive(height=height, young_modulus=young_modulus)
-    ends = area(0.0), area(height)
-    if not min(ends) > 0:
-        raise InvalidInputError("area", expected="a cross-section > 0 at both ends", got=ends)
-    # Over the part of the height, so that the tolerance is relative to a number near one.
-    mean = quad(lambda part: ends[0] / area(part * height), 0, 1, epsrel=1e-10, limit=200)[0]
-    return float(mean * height / (young_modulus * ends[0]))
 
 
 def shortening(element: Element, force: Value, young_modulus: float = STATED_MODULUS) -> Value:

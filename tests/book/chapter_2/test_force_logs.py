@@ -113,7 +113,7 @@ def test_line_at_the_start_repairs_the_start_only():
 def test_errors_of_a_logged_hour():
     rows = read("long").query("`start [h]` == 2.0")
     hour = (rows[name].to_numpy() for name in ("time [s]", "voltage [V]", "weight [N]"))
-    errors = forces.hour_errors(*hour, forces.calibrated(), forces.to_force)
+    errors = forces.hour_errors(*hour)
     assert len(errors) == 20
     assert abs(errors["without"]).mean() > abs(errors["between"]).mean()
 

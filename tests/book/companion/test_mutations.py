@@ -22,7 +22,7 @@ from softgrip.materials import fitting, least_squares, powerlaw
 from softgrip.materials import ludwick as tension
 from softgrip.pump import flow, gas
 from softgrip.tactile import element, hertz
-from softgrip.tactile import lift as lifting
+from softgrip.tactile import friction as lifting
 
 CASES: list[tuple[str, Callable, str, str, str]] = [
     (
