@@ -122,7 +122,7 @@ FIRST = 100
 """Number of the first of their runs: beyond those of the logs."""
 
 
-@cache
+@remembered
 def calibrated() -> Floats:
     """Return the mean voltage of each weight for the drift among the 69 points, V, shape (4,)."""
     voltage, force = weight_points()
