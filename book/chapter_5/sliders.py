@@ -2,7 +2,7 @@
 
 from matplotlib.figure import Figure
 
-from book.chapter_5.figures import draw_curves
+from book.chapter_5.figures_materials import draw_curves
 from book.companion.style import LUDWICK, MEASURED, still, style
 from softgrip.materials.facts import facts
 from softgrip.materials.powerlaw import predict_power

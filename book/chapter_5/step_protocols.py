@@ -52,17 +52,20 @@ def at_60(design: str, kind: Kind, angle: int) -> Floats:
     return identified_at(design, kind).response(test.time, test.pressure)
 
 
+def _at_60_with(power: float, design: str, kind: Kind, angle: int) -> Floats:
+    test, power = kept_test(design, angle), power if kind == "ludwick" else 1.0
+    return fit_test(kept_test(design, 60), power).response(test.time, test.pressure)
+
+
 def with_true_power(design: str, kind: Kind, angle: int) -> Floats:
     """Identify at 60 deg, with the power that Table 5.2 calls true."""
-    test, power = kept_test(design, angle), FINGERS[design].true if kind == "ludwick" else 1.0
-    return fit_test(kept_test(design, 60), power).response(test.time, test.pressure)
+    return _at_60_with(FINGERS[design].true, design, kind, angle)
 
 
 def with_table_power(design: str, kind: Kind, angle: int) -> Floats:
     """Identify at 60 deg, with the power of Table 5.1, on which the simulated rig runs."""
-    test, power = kept_test(design, angle), material(FINGERS[design].material).fractional_power
-    fitted = fit_test(kept_test(design, 60), power if kind == "ludwick" else 1.0)
-    return fitted.response(test.time, test.pressure)
+    power = material(FINGERS[design].material).fractional_power
+    return _at_60_with(power, design, kind, angle)
 
 
 def each_by_itself(design: str, kind: Kind, angle: int) -> Floats:
@@ -91,22 +94,24 @@ def driven_by_a_step(design: str, kind: Kind, angle: int) -> Floats:
     return fitted.response(test.time, np.full_like(test.time, UNIT * (angle / 60) ** n))
 
 
+def stated_stiffness(design: str, kind: Kind) -> float:
+    """Return the stiffness by Eq. (5.10) or (5.13) as printed, N."""
+    modulus = material(FINGERS[design].material).young_modulus
+    if kind == "linear":
+        return float(linear.spring_constant(modulus, **SIZE))
+    return float(ludwick.spring_constant(modulus, FINGERS[design].estimated, **SIZE))
+
+
 def stiffness_as_stated(design: str, kind: Kind, angle: int) -> Floats:
     """Hold the stiffness at Eq. (5.10) or (5.13) as printed; mass and damping from 60 deg."""
-    first, test, n = kept_test(design, 60), kept_test(design, angle), _power(design, kind)
-    modulus = material(FINGERS[design].material).young_modulus
-    stiffness = (
-        linear.spring_constant(modulus, **SIZE)
-        if kind == "linear"
-        else ludwick.spring_constant(modulus, n, **SIZE)
-    )
+    first, test = kept_test(design, 60), kept_test(design, angle)
     fitted = fit_finger(
         first.time,
         first.pressure,
         first.angle,
         force_per_pressure=FORCE_PER_PRESSURE,
-        fractional_power=n,
-        stiffness=stiffness,
+        fractional_power=_power(design, kind),
+        stiffness=stated_stiffness(design, kind),
     )
     return fitted.response(test.time, test.pressure)
 

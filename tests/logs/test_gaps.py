@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from book.chapter_2.force_drift import hour_errors
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from book.chapter_2.forces import hour_errors
 from book.chapter_4.identified_model import identify_capacity, identify_finger
 from book.companion.show import show
 from book.live.acceptance import bands_table

@@ -1,24 +1,37 @@
-"""Figures of Chapter 5."""
+"""Chapter 5, figures and tables: ten elastomers and how their fractional powers are predicted."""
 
+from math import inf
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 from scipy.stats import spearmanr
 
-from book.companion.exhibit import figure
+from book.companion.exhibit import figure, table
 from book.companion.style import GREY, LUDWICK, MEASURED, OTHER, PRINTED, VERMILION, WIDTH, sheet
+from book.companion.verdict import ledger, verdict_of
 from softgrip.arrays import Floats
 from softgrip.materials import ludwick, tensile, yeoh
 from softgrip.materials.facts import facts
-from softgrip.materials.fitting import LONGEST_STRAINS, Fitting, kept
+from softgrip.materials.fitting import (
+    LONGEST_STRAINS,
+    Fitting,
+    bootstrap_interval,
+    fractional_power,
+    kept,
+    ranking,
+)
 from softgrip.materials.leave_out import RIVALS, leave_k_out
 from softgrip.materials.table import HELD_OUT, Material, fractional_powers, properties, table_5_1
 from softgrip.provenance import Provenance
 from softgrip.reads import remembered
 from softgrip.units import MPa
 
+TABLE = "materials/table_5_1.csv"
+FITS = "materials/ludwick_fits.csv"
+FACTS = "materials/tensile_facts.csv"
 TESTS = "ten tensile tests (public, each checked against its sha256 in softgrip.materials.database)"
 BEST = Fitting()
 
@@ -60,16 +73,16 @@ def figure_5_1() -> Figure:
     """Draw the stress-strain curves of the ten elastomers against Ludwick's law."""
     drawn, panels = sheet(8.2, 5, 2)
     for axes, material in zip(panels.flat, table_5_1().values(), strict=True):
+        known = facts()[material.name]
         draw_curves(axes, material, material.fractional_power)
         axes.set_title(material.name, fontsize=9.5)
         axes.text(0.05, 0.84, f"n = {material.fractional_power:.3f}", transform=axes.transAxes)
-        axes.set_ylim(0, 1.1 * (1 + facts()[material.name].peak_strain)
-                      * facts()[material.name].peak_stress / MPa)  # fmt: skip
+        axes.set_ylim(0, 1.1 * (1 + known.peak_strain) * known.peak_stress / MPa)
         axes.set_ylabel("MPa")
     for axes in panels[-1]:
         axes.set_xlabel("engineering strain")
-    handles, labels = panels[0, 0].get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside upper center", ncols=3, columnspacing=1.2)
+    handles = panels[0, 0].get_legend_handles_labels()
+    drawn.legend(*handles, loc="outside upper center", ncols=3, columnspacing=1.2)
     return drawn
 
 
@@ -121,12 +134,10 @@ def figure_5_a() -> Figure:
         n = [kept()[material.name, Fitting(longest_strain=limit)] for limit in LONGEST_STRAINS]
         axes.plot(used, n, "o-", color=LUDWICK, label="fitted")
         printed = 1 / round(1 / material.fractional_power, 2)
-        m = 1 / printed
-        across = [0, 18]
-        axes.fill_between(
-            across, 1 / (m + 0.005), 1 / (m - 0.005), color=PRINTED, alpha=0.25, lw=0,
-            label="printed, rounded",
-        )  # fmt: skip
+        m, across = 1 / printed, [0, 18]
+        low, high = 1 / (m + 0.005), 1 / (m - 0.005)
+        label = "printed, rounded"
+        axes.fill_between(across, low, high, color=PRINTED, alpha=0.25, lw=0, label=label)
         axes.plot(across, [printed, printed], color=PRINTED, ls="--", label="printed")
         axes.set_xlim(across)
         axes.set_title(material.name, fontsize=9.5)
@@ -135,8 +146,7 @@ def figure_5_a() -> Figure:
     for axes in panels[-1]:
         axes.set_xlabel("strain used up to")
         axes.xaxis.set_major_locator(MultipleLocator(4))
-    handles, labels = panels[0, 0].get_legend_handles_labels()
-    drawn.legend(handles, labels, loc="outside upper center", ncols=3)
+    drawn.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return drawn
 
 
@@ -155,11 +165,124 @@ def figure_5_b() -> Figure:
     styles = (("Eq. (5.8)", LUDWICK, "o"), ("mean of the others", VERMILION, "_"))
     for name, colour, marker in styles:
         found = leave_k_out(1, model=RIVALS[name]()).predictions
-        axes.scatter([p.printed for p in found], [p.predicted for p in found], color=colour,
-                     marker=marker, s=60, label=name)  # fmt: skip
+        x, y = np.array([(p.printed, p.predicted) for p in found]).T
+        axes.scatter(x, y, color=colour, marker=marker, s=60, label=name)
     worst = leave_k_out(1).worst
-    axes.annotate(worst.name, (worst.printed, worst.predicted), (6, -4),
-                  textcoords="offset points", fontsize=9.5)  # fmt: skip
+    at = (worst.printed, worst.predicted)
+    axes.annotate(worst.name, at, (6, -4), textcoords="offset points", fontsize=9.5)
     axes.set(xlabel="printed n", ylabel="predicted n", xlim=(1.4, 2.65), ylim=(0.7, 2.75))
     axes.legend(loc="lower right")
     return drawn
+
+
+@table(
+    "5.1",
+    caption="The ten elastomers: the fractional power n as printed and as fitted to the public "
+    "tensile tests (true stress, strains up to 600 %, E held); modulus E (MPa) as printed beside "
+    "the tests' stress at 100 % strain; viscosity (Pa s); strength (MPa) as printed beside the "
+    "tests' largest stress.",
+    provenance=Provenance.PUBLIC,
+    sources=TESTS,
+)
+def table_5_1_beside_tests() -> pd.DataFrame:
+    """Tabulate the ten materials beside what their tensile tests give."""
+    rows = []
+    for material in table_5_1().values():
+        known = facts()[material.name]
+        interval = "no test"
+        if tensile.available():
+            low, high = bootstrap_interval(tensile.load(material.name), BEST)
+            interval = f"{low:.2f} to {high:.2f}"
+        rows.append(
+            {
+                "material": material.name,
+                "n printed": f"{material.fractional_power:.3f}",
+                "n fitted": f"{fractional_power(material.name, BEST):.3f}",
+                "95 %": interval,
+                "verdict": verdict_of(5, "table-5.1-n-{key}", material.name),
+                "E": f"{material.young_modulus / MPa:.2f}",
+                "at 100 %": f"{known.hundred_percent_modulus / MPa:.3f}",
+                "viscosity": f"{material.mixed_viscosity:g}",
+                "strength": f"{material.tensile_strength / MPa:.2f}",
+                "largest": f"{known.peak_stress / MPa:.2f}",
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+@table(
+    "5.2",
+    caption="The two held-out materials: true and estimated fractional power, and the error that "
+    "the summary states. The recomputed true value is that of Table 5.1.",
+    provenance=Provenance.PRINTED,
+)
+def table_5_2() -> pd.DataFrame:
+    """Tabulate what is printed of the two held-out materials, and what comes of it."""
+    return pd.DataFrame(
+        {
+            "what": entry.claim.what,
+            "printed": f"{'' if entry.claim.relation == '=' else '< '}{entry.claim.printed}",
+            "recomputed": f"{entry.recomputed:.4g}",
+            "verdict": entry.verdict,
+        }
+        for entry in ledger(5, ["Table 5.2", "Section 5.5"])
+    )
+
+
+@table(
+    "5.A",
+    caption="Ways to read n from a curve, held against the printed column: the five best of 96, "
+    "and the same choices as the best with one of them changed.",
+    provenance=Provenance.PUBLIC,
+)
+def table_5_a() -> pd.DataFrame:
+    """Tabulate the best ways of fitting and their neighbours."""
+    scores = ranking()
+    neighbours = [
+        Fitting(stress="engineering"),
+        Fitting(loss="log"),
+        Fitting(longest_strain=inf),
+        Fitting(modulus="free"),
+    ]
+    chosen = scores[:5] + [s for s in scores if s.fitting in neighbours and s not in scores[:5]]
+    return pd.DataFrame(
+        {
+            "stress": s.fitting.stress,
+            "least squares of": s.fitting.loss,
+            "strains up to": "peak"
+            if s.fitting.longest_strain == inf
+            else f"{s.fitting.longest_strain:.0%}",
+            "E": s.fitting.modulus,
+            "come out": s.come_out,
+            "within 2 %": s.within_2_percent,
+            "within 5 %": s.within_5_percent,
+            "median error": f"{s.median_error:.1%}" if s.median_error < inf else "no fit",
+        }
+        for s in chosen
+    )
+
+
+@table(
+    "5.B",
+    caption="Errors of n when materials are predicted that the fit has not seen: each one, and "
+    "each two, of the ten held out in turn.",
+    provenance=Provenance.PRINTED,
+)
+def table_5_b() -> pd.DataFrame:
+    """Tabulate leave-one-out and leave-two-out errors of three models."""
+    rows = []
+    for name, model in RIVALS.items():
+        for k in (1, 2):
+            found = leave_k_out(k, model=model())
+            errors = {p: abs(p.error / p.printed) for p in found.predictions}
+            worst = max(errors, key=lambda p: errors[p])
+            rows.append(
+                {
+                    "model": name,
+                    "held out": k,
+                    "RMS error of n": f"{found.rms_error:.3f}",
+                    "within 10 %": f"{np.mean(np.array([*errors.values()]) < 0.1):.0%}",
+                    "worst": f"{errors[worst]:.0%} ({worst.name})",
+                }
+            )
+    return pd.DataFrame(rows)
