@@ -23,8 +23,8 @@ def _hand(axes: Any, held: Grasp) -> None:
         radius, sign = length / held.angles[k, -1], 1 - 2 * k
         across = sign * (radius * (1 - np.cos(turned)) - gap / 2)
         down = -radius * np.sin(turned)
-        axes.plot(across / MM, down / MM, dash, color=colour, lw=5, solid_capstyle="round",
-                  label=side)  # fmt: skip
+        look = {"color": colour, "lw": 5, "solid_capstyle": "round", "label": side}
+        axes.plot(across / MM, down / MM, dash, **look)
     centre = (held.place[-1] / MM, -held.contact.depth / MM)
     axes.add_patch(Circle(centre, held.contact.disc.radius / MM, fc="#F3E3C3", ec=GREY, zorder=0))
     axes.axhline(0, color=GREY, lw=4)
@@ -69,8 +69,8 @@ def figure_6_8() -> Figure:
     panels["a"].set_title("(a) soft disc, held")
     panels["b"].set_title("(b) coordinated")
     panels["c"].set_title("(c) one fast push")
-    place.set(title="(d) disc pushed aside", xlabel="time (s)", ylabel="place (mm)", xlim=(0, 5),
-              ylim=(-0.2, 2.6))  # fmt: skip
+    place.set(title="(d) disc pushed aside", xlabel="time (s)", ylabel="place (mm)")
+    place.set(xlim=(0, 5), ylim=(-0.2, 2.6))
     panels["a"].legend(loc="lower left", handlelength=1)
     panels["b"].legend(loc="upper right")
     place.legend(loc="upper left", ncols=2)

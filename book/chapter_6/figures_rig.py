@@ -1,16 +1,27 @@
-"""Figures of Chapter 6 on the experiments: steps, uncertainty, control, a push."""
+"""Chapter 6, figures and tables: the experiments, steps, uncertainty, control, a push."""
 
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.figure import Figure
 
 from book.chapter_6 import speed as gripper_speed
+from book.chapter_6.comparison import CRITERIA, ENTRIES, RIGS, judged, robustness_margin
 from book.chapter_6.logs import names_of
-from book.chapter_6.results import BAND_SHARE
-from book.companion.exhibit import figure
+from book.chapter_6.results import (
+    BAND_SHARE,
+    bounds,
+    desired,
+    ends,
+    identified,
+    identified_without_noise,
+    largest_weight,
+    recovery,
+)
+from book.companion.exhibit import figure, table
 from book.companion.style import (
     BLUE,
     GREEN,
@@ -29,7 +40,7 @@ from softgrip.gripper.plant import FingerDynamics
 from softgrip.gripper.uncertainty import bounding_weight, deviation, excited_band, finger_response
 from softgrip.logs.fingers import GripperLogs, each_identified, read_runs, run_deviation
 from softgrip.provenance import Provenance, data_folder
-from softgrip.units import DEG
+from softgrip.units import DEG, REV
 
 SIDES = (("left", BLUE, "-"), ("right", GREEN, "--"))
 PRINTED_BAND = {"6.4": (6.0, 63.0), "6.5": (6.0, 50.0)}
@@ -47,10 +58,11 @@ def groups(logs: Sequence[Path | str], kinds: Sequence[str]) -> list[GripperLogs
     return [read_runs(paths[size * k : size * (k + 1)]) for k in range(len(kinds))]
 
 
-def _steps(axes: Any, runs: GripperLogs, finger: int, colour: str, dash: str, label: str) -> None:
-    angles = runs.angles[:, finger] / DEG
-    axes.plot(runs.time, angles.T, color=colour, lw=0.4, alpha=0.5, label="_runs")
-    axes.plot(runs.time, angles.mean(axis=0), color=colour, ls=dash, label=label)
+def _steps(axes: Any, time: Floats, runs: Floats, colour: str, dash: str, label: str) -> None:
+    """Draw runs of angles [rad], shape (runs, N), and their mean."""
+    angles = runs / DEG
+    axes.plot(time, angles.T, color=colour, lw=0.4, alpha=0.5, label="_runs")
+    axes.plot(time, angles.mean(axis=0), color=colour, ls=dash, label=label)
 
 
 def _model_deviation(models: Sequence[FingerDynamics], frequency: Floats) -> Floats:
@@ -63,6 +75,11 @@ def _bands(axes: Any, runs: GripperLogs, printed: tuple[float, float]) -> None:
     axes.axvspan(*excited, color=YELLOW, alpha=0.3, lw=0, label="excited")
     axes.axvspan(*printed, fill=False, ec=PRINTED, ls=":", label="printed as excited")
     axes.axvline(np.pi / runs.period, color=VERMILION, lw=1)
+
+
+def _bound(axes: Any) -> None:
+    axes.set(xscale="log", yscale="log", xlabel="frequency (rad/s)", ylabel="deviation")
+    axes.set_title("(b) bound on |W|")
 
 
 WEIGHT = (
@@ -89,19 +106,18 @@ def figure_6_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     drawn, (steps, weights) = sheet(6.2, 2, 1)
     frequency = np.geomspace(0.5, 80, 100)
     _bands(weights, runs, PRINTED_BAND["6.4"])
-    for k, (models, (side, colour, dash)) in enumerate(
-        zip(each_identified(runs), SIDES, strict=True)
-    ):
-        _steps(steps, runs, k, colour, dash, side)
+    identified_by_finger = each_identified(runs)
+    for k, (side, colour, dash) in enumerate(SIDES):
+        _steps(steps, runs.time, runs.angles[:, k], colour, dash, side)
         weights.plot(*run_deviation(runs, k), ".", color=colour, ms=3, label=f"{side}, records")
-        bound = _model_deviation(models, frequency)
+        bound = _model_deviation(identified_by_finger[k], frequency)
         weights.plot(frequency, bound, dash, color=colour, label=f"{side}, models")
         fitted = np.abs(bounding_weight(frequency, bound)(1j * frequency)).ravel()
         weights.plot(frequency, fitted, ":", color=colour, lw=1.2, label=f"{side}, weight")
     steps.set(title="(a) steps in open loop", xlabel="time (s)", ylabel="angle (deg)")
     steps.legend(loc="lower right")
-    weights.set(xscale="log", yscale="log", xlabel="frequency (rad/s)", ylabel="deviation",
-                xlim=(0.5, 80), ylim=(0.03, 30), title="(b) bound on |W|")  # fmt: skip
+    _bound(weights)
+    weights.set(xlim=(0.5, 80), ylim=(0.03, 30))
     drawn.legend(*weights.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return drawn
 
@@ -129,21 +145,19 @@ def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     spreads = {spread.speed: spread for spread in gripper_speed.kept_errors()}
     words = (("high speed", BLUE, "-", 5.0), ("low speed", ORANGE, "--", 0.1))
     drawn, (steps, weights, errors) = sheet(7.4, 3, 1)
+    bins = np.arange(-6, 6.1, 0.75).tolist()
     for runs, (label, colour, dash, speed) in zip(both, words, strict=True):
         pushed = runs.time[np.flatnonzero(runs.commands[0])[-1]]
-        angles = runs.angles[:, 0] / DEG
-        steps.plot(runs.time - pushed, angles.T, color=colour, lw=0.4, alpha=0.5, label="_runs")
-        steps.plot(runs.time - pushed, angles.mean(axis=0), dash, color=colour, label=label)
+        _steps(steps, runs.time - pushed, runs.angles[:, 0], colour, dash, label)
         weights.plot(*run_deviation(runs, 0), ".", color=colour, ms=4, label=label)
         rest = final_value(runs.time, runs.angles[:, 0], window=1.0) / DEG
         found = rest - rest.mean() if logs else spreads[speed].measured
-        errors.hist(found, bins=np.arange(-6, 6.1, 0.75).tolist(), histtype="step", color=colour,
-                    ls=dash, lw=1.6, label=f"{label} ({found.std(ddof=1):.2f} deg)")  # fmt: skip
+        look = {"color": colour, "ls": dash, "lw": 1.6, "histtype": "step"}
+        errors.hist(found, bins, label=f"{label} ({found.std(ddof=1):.2f} deg)", **look)
     weights.axvspan(*PRINTED_BAND["6.5"], fill=False, ec=PRINTED, ls=":")
-    steps.set(title="(a) steps of the left finger", xlabel="time since the push ended (s)",
-              ylabel="angle (deg)")  # fmt: skip
-    weights.set(xscale="log", yscale="log", xlabel="frequency (rad/s)", ylabel="deviation",
-                title="(b) bound on |W|")  # fmt: skip
+    steps.set(title="(a) steps of the left finger", ylabel="angle (deg)")
+    steps.set_xlabel("time since the push ended (s)")
+    _bound(weights)
     errors.set(title="(c) errors at rest", xlabel="error (deg)", ylabel="runs", ylim=(0, 60))
     errors.legend(loc="upper right")
     steps.legend(loc="lower right")
@@ -170,11 +184,12 @@ def figure_6_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     free, fast, slow, pushed = groups(logs, ("open", "fast", "slow", "push"))
     drawn, panels = sheet(7.4, 3, 1)
     for k, (side, colour, dash) in enumerate(SIDES):
-        _steps(panels[0], free, k, colour, dash, side)
-        panels[1].plot(slow.time, slow.angles[:, k].mean(axis=0) / DEG, dash, color=colour,
-                       label=f"{side}, 2/s")  # fmt: skip
-        _steps(panels[1], fast, k, (SKY, ORANGE)[k], (":", "-.")[k], f"{side}, 4.8/s")
-        _steps(panels[2], pushed, k, colour, dash, side)
+        _steps(panels[0], free.time, free.angles[:, k], colour, dash, side)
+        mean = slow.angles[:, k].mean(axis=0) / DEG
+        panels[1].plot(slow.time, mean, dash, color=colour, label=f"{side}, 2/s")
+        look = (SKY, ORANGE)[k], (":", "-.")[k], f"{side}, 4.8/s"
+        _steps(panels[1], fast.time, fast.angles[:, k], *look)
+        _steps(panels[2], pushed.time, pushed.angles[:, k], colour, dash, side)
         for axes in panels[1:]:
             axes.axhline(pushed.references[k, -1] / DEG, color=PRINTED, lw=0.8)
     times = [time for time, _ in pushed.events]
@@ -187,3 +202,128 @@ def figure_6_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     panels[2].set(xlabel="time (s)", ylim=(-5, 60))
     panels[0].set(ylim=(-5, 60))
     return drawn
+
+
+def middle_and_ends(values: Floats, scale: float = 1.0, digits: int = 1) -> str:
+    """Return the median with the 5 and 95 % points, such as ``2.3 [1.9, 2.8]``.
+
+    A run that never settles is infinite, so the points are runs and not between them.
+    """
+    points = np.percentile(values, (50, 5, 95), method="nearest") / scale
+    middle, low, high = (f"{x:.{digits}f}" if np.isfinite(x) else "never" for x in points)
+    return f"{middle} [{low}, {high}]"
+
+
+@table(
+    "6.H",
+    caption="Controllers on the same *simulated* gripper, all cut at 5 rev/s, every 100 ms, with "
+    "the sensor's noise: median of 50 runs and 5 to 95 %. Settled: within 2 deg of the fingers' "
+    "own ends, s. Out of step: the largest difference of the shares of their ways, deg. Error: of "
+    "the ends from what one pump can reach of 45 deg for both, deg. Peak: of the motor, rev/s. "
+    "Tolerated: the largest error of each finger's response, of any kind, under which small "
+    "motions stay stable; a command sequence has no loop that could swing. The "
+    "model is the one that the logs in open loop identify; with *on (6.26)* the poles are those "
+    "printed.",
+    provenance=Provenance.SIMULATED,
+)
+def table_6_h() -> pd.DataFrame:
+    """Tabulate the controllers."""
+    rows = []
+    for name in ENTRIES:
+        found, margin = judged(name), robustness_margin(name)
+        _, _, other = name.partition(", ")
+        rows.append(
+            {
+                "controller": f"same, {other}" if other else name,
+                "settled": middle_and_ends(found.settling["2 deg"]),
+                "overshoot (%)": middle_and_ends(found.overshoot, 0.01, 0),
+                "out of step": middle_and_ends(found.synchronization, DEG),
+                "error": middle_and_ends(found.error, DEG),
+                "peak": middle_and_ends(found.peak, REV),
+                "tolerated": "any" if margin is None else f"{margin:.0%}",
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+@table(
+    "6.I",
+    caption="What the seven steps in open loop of the *simulated* gripper identify. It is "
+    "calibrated so that a step without noise identifies Eq. (6.26), and its spread so that seven "
+    "runs have about the printed deviations: what the sensor's noise adds to them is the finding. "
+    "Last line: half a second of a fifth of the air's torque, with the filter for 2/s, median of "
+    "50 runs.",
+    provenance=Provenance.SIMULATED,
+)
+def table_6_i() -> pd.DataFrame:
+    """Tabulate what is identified beside what is printed."""
+    found, quiet = identified("open"), identified_without_noise()
+    means = np.array([[(f.damping, f.stiffness) for f in runs] for runs in found]).mean(axis=1)
+    noisy, bare = 100 * bounds(found), 100 * bounds(quiet)
+    rows = [
+        ("damping by mass (1/s)", "2.45 and 2.66", means[:, 0], "{:.2f}"),
+        ("stiffness by mass (1/s^2)", "3.06 and 3.61", means[:, 1], "{:.2f}"),
+        ("largest deviation of the damping (%)", "14.3", noisy[:, 0], "{:.1f}"),
+        ("the same without sensor noise (%)", "", bare[:, 0], "{:.1f}"),
+        ("largest deviation of the stiffness (%)", "5.9", noisy[:, 1], "{:.1f}"),
+        ("the same without sensor noise (%)", "", bare[:, 1], "{:.1f}"),
+        ("angle at rest (deg)", "50 and 39.5", ends("open") / DEG, "{:.1f}"),
+        ("reachable of 45 deg (deg)", "48.24 and 40.86", desired() / DEG, "{:.2f}"),
+        ("back within 1 deg after a push on the left finger (s)", "", recovery(), "{:.1f}"),
+    ]
+    return pd.DataFrame(
+        {"": what, "printed": text, "left": form.format(v[0]), "right": form.format(v[1])}
+        for what, text, v, form in rows
+    )
+
+
+@table(
+    "6.J",
+    caption="Time in s after which both fingers of the *simulated* gripper stay within a band "
+    "about their own ends, median of 50 runs, and the overshoot; and what it would be without the "
+    "motor's limit of 5 rev/s, without the noise of the flex sensors, without both. The text has "
+    "0.7 s with the filter for 4.8/s and 1.1 s with that for 2/s, and no criterion.",
+    provenance=Provenance.SIMULATED,
+)
+def table_6_j() -> pd.DataFrame:
+    """Tabulate settling times by criterion."""
+    rows = []
+    for name in ("H for 4.8/s", "H for 2/s"):
+        for rig in RIGS:
+            found = judged(name, rig)
+            times = {key: float(np.median(found.settling[key])) for key in CRITERIA}
+            rows.append(
+                {
+                    "filter": name,
+                    "gripper": rig,
+                    **{k: f"{t:.1f}" if np.isfinite(t) else "never" for k, t in times.items()},
+                    "overshoot (%)": f"{100 * np.median(found.overshoot):.0f}",
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+@table(
+    "6.K",
+    caption="Standard deviation of where the left finger of the *simulated* gripper comes to rest, "
+    "over 200 runs, deg, by the motor speed of one push; printed are 1.14 deg at a higher and "
+    "2.41 deg at a lower speed, neither of which is given. Last column: the largest weight W_T, of "
+    "second order, fitted by Eq. (6.18) to the models that seven runs identify without noise; a "
+    "push that is slower than the finger identifies none.",
+    provenance=Provenance.SIMULATED,
+)
+def table_6_k() -> pd.DataFrame:
+    """Tabulate the spread over the speed."""
+    return pd.DataFrame(
+        {
+            "speed (rev/s)": f"{spread.speed:g}",
+            "true": f"{spread.true.std(ddof=1):.2f}",
+            "measured": f"{spread.measured.std(ddof=1):.2f}",
+            "weight (%)": _percent(largest_weight(spread.speed * REV)),
+        }
+        for spread in gripper_speed.kept_errors()
+    )
+
+
+def _percent(share: float | None) -> str:
+    return "none" if share is None else f"{100 * share:.1f}"

@@ -25,8 +25,9 @@ from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.monte_carlo import Outcome, simulate
 from softgrip.gripper.optimal_feedforward import optimal_feedforward, trade_off
 from softgrip.gripper.plant import PRINTED
+from softgrip.gripper.printed_loop import FILTERS
 from softgrip.gripper.reach import project
-from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
+from softgrip.gripper.shaping_filter import filter_state_space
 from softgrip.provenance import Provenance
 from softgrip.reads import remembered
 from softgrip.units import DEG, REV
@@ -37,10 +38,14 @@ LIMIT, IN_TIME = 5.0, 1.5
 BANDS = (0.02, 0.05)
 LIMITS = {"1 (u a share)": 1.0, "5 (u in rev/s)": 5.0, "31.4 (u in rad/s)": 5 * REV}
 """The largest command by what U may be: the text names no unit of it."""
-FILTERS = {"H for 4.8/s": FAST, "H for 2/s": SLOW}
 BEST = "best feedforward"
-COLOURS = {"H for 4.8/s": ORANGE, "H for 2/s": LUDWICK, BEST: OTHER}
-LINES = {"H for 4.8/s": "--", "H for 2/s": "-", BEST: "-."}
+CONTROLS = {"4.8/s": (ORANGE, "--"), "2/s": (LUDWICK, "-"), BEST: (OTHER, "-.")}
+"""The printed loops by their filters, the best command beside them, and how each is drawn."""
+
+
+def label(name: str) -> str:
+    """Return what one of `CONTROLS` is called in figures and tables."""
+    return f"H for {name}" if name in FILTERS else name
 
 
 def printed_loop(name: str) -> ControllerMatrices:
@@ -108,19 +113,17 @@ def figure_6_d() -> Figure:
 def figure_6_e() -> Figure:
     """Draw the histograms of settling time and synchronization."""
     drawn, (top, low) = sheet(5.6, 2, 1)
-    for name in COLOURS:
+    for name, (colour, line) in CONTROLS.items():
         found = outcome(name)
         when = found.settling[1].max(axis=1)
         settled = np.isfinite(when)
-        for axes, values, edges, label in (
-            (top, when[settled], np.arange(0, 3.01, 0.1), f"{name}: {settled.mean():.0%}"),
-            (low, 100 * found.synchronization, np.arange(0, 26, 1.0), name),
+        for axes, values, edges, words in (
+            (top, when[settled], np.arange(0, 3.01, 0.1), f"{label(name)}: {settled.mean():.0%}"),
+            (low, 100 * found.synchronization, np.arange(0, 26, 1.0), label(name)),
         ):
             share = 100 * np.histogram(values, edges)[0] / PAIRS
             middle = (edges[:-1] + edges[1:]) / 2
-            axes.plot(
-                middle, share, ds="steps-mid", color=COLOURS[name], ls=LINES[name], label=label
-            )
+            axes.plot(middle, share, ds="steps-mid", color=colour, ls=line, label=words)
     top.set(title="(a) both settled", xlabel="time (s)", ylabel="pairs (%)", xlim=(0, 3))
     low.set(title="(b) farthest apart", xlabel="difference (%)", ylabel="pairs (%)", xlim=(0, 25))
     top.set_ylim(0, 20)
@@ -148,15 +151,14 @@ def figure_6_f() -> Figure:
     styles = ((BLACK, "-"), (BLUE, "--"), (VERMILION, "-."))
     for (name, limit), (colour, line) in zip(LIMITS.items(), styles, strict=True):
         best = list(trade_off(PRINTED, TARGET, limit=limit, latest=2.5))
-        axes.plot(
-            [b.settling for b in best], [100 * b.worst_sync for b in best],
-            color=colour, ls=line, marker=".", label=f"limit {name}",
-        )  # fmt: skip
+        times, apart = np.array([(b.settling, 100 * b.worst_sync) for b in best]).T
+        axes.plot(times, apart, color=colour, ls=line, marker=".", label=f"limit {name}")
     for name in FILTERS:
         found = outcome(name, pairs=1)
         when = float(found.settling[0].max())
         if np.isfinite(when):
-            axes.plot(when, 100 * found.synchronization[0], "^", color=COLOURS[name], label=name)
+            apart = 100 * found.synchronization[0]
+            axes.plot(when, apart, "^", color=CONTROLS[name][0], label=label(name))
     axes.axvline(0.7, color=GREY, ls=":")
     axes.set(xlabel="both within 2 % after (s)", ylabel="farthest apart (%)")
     axes.set(xlim=(0.5, 2.6), ylim=(0, None))
@@ -176,14 +178,14 @@ def figure_6_f() -> Figure:
 def table_6_e() -> pd.DataFrame:
     """Tabulate what comes of the pairs."""
     rows = []
-    for name in COLOURS:
+    for name in CONTROLS:
         found = outcome(name)
         when = found.settling.max(axis=2)
         settled = np.isfinite(when)
         median, most = np.percentile(found.synchronization, [50, 95])
         rows.append(
             {
-                "control": name,
+                "control": label(name),
                 "within 2 %": f"{settled[0].mean():.0%}",
                 "within 5 %": f"{settled[1].mean():.0%}",
                 "time (s)": f"{np.median(when[1, settled[1]]):.2f}",

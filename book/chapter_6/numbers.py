@@ -1,25 +1,25 @@
 """Recomputation of the numbers printed in Chapter 6, by linear model and on the rig."""
 
-import control
 import numpy as np
 
-from book.chapter_6 import comparison as gripper_comparison
-from book.chapter_6 import results as gripper_results
+from book.chapter_6 import comparison, results
 from book.chapter_6 import speed as gripper_speed
 from book.companion.verdict import simulated
 from softgrip.control.step_metrics import settling_time
 from softgrip.gripper.gripper_loop import GripperRun, noise_gain
 from softgrip.gripper.internal_model import controller_matrices
 from softgrip.gripper.inversion import mean_inverse, moore_penrose_inverse
-from softgrip.gripper.loop_shaping import fit_roll_off
+from softgrip.gripper.loop_shaping import ShapedLoop, fit_roll_off
 from softgrip.gripper.plant import PRINTED
 from softgrip.gripper.printed_loop import FILTERS, FINE, crossover, equal_targets, run_printed
 from softgrip.gripper.reach import direction, project
 from softgrip.gripper.shaping_filter import FAST, filter_state_space
-from softgrip.gripper.synchronization import synchronization_error
 from softgrip.materials.table import material
 from softgrip.reads import remembered
 from softgrip.units import DEG, ML, REV, MPa
+
+COMPARED = np.geomspace(0.1, 100, 200)
+"""Frequencies at which filters are compared, rad/s."""
 
 
 def projection(spa: str, share: float = 0.333, digits: int | None = None) -> float:
@@ -77,7 +77,7 @@ def filter_coefficient(target: str, part: str, power: int, poles: int = 2) -> fl
     poles
         That the target loop is given beyond its crossover; their place is fitted.
     """
-    found = shaped(target, poles)
+    found = shaped(target, poles)[1].complementary
     low = np.poly(found.poles()).real
     # One input, one output: the numerator is det(sI - A + B C) - (1 - D) det(sI - A).
     top = np.poly(found.A - found.B @ found.C).real + (found.D.item() - 1) * low
@@ -85,11 +85,10 @@ def filter_coefficient(target: str, part: str, power: int, poles: int = 2) -> fl
 
 
 @remembered
-def shaped(target: str, poles: int = 2) -> control.StateSpace:
-    """Return the re-derived H for a target loop, compared from 0.1 to 100 rad/s."""
+def shaped(target: str, poles: int = 2) -> tuple[float, ShapedLoop]:
+    """Return the roll-off [rad/s] and the loop that come nearest to a printed H on `COMPARED`."""
     low_pass = filter_state_space(*FILTERS[target])
-    at = np.geomspace(0.1, 100, 200)
-    return fit_roll_off(crossover(target), low_pass, at, order=poles)[1].complementary
+    return fit_roll_off(crossover(target), low_pass, COMPARED, order=poles)
 
 
 def gain_at_rest(target: str) -> float:
@@ -159,12 +158,6 @@ def highest_frequency(period: float = 0.1) -> float:
     return np.pi / period
 
 
-def transient_difference(target: str = "4.8/s") -> float:
-    """Return by how much the fingers are apart at most on the way to 45 deg, in deg."""
-    apart = synchronization_error(step(target, 0.25).angles, equal_targets(0.25 * np.pi))
-    return float(apart.max() / DEG)
-
-
 def outside(right: float) -> float:
     """Return which share of a target (pi/4, right pi/4) is outside the image of P."""
     return project(PRINTED, [np.pi / 4, right * np.pi / 4]).share
@@ -177,14 +170,14 @@ PARAMETER = {"damping": 0, "stiffness": 1}
 @simulated
 def deviation_of_runs(parameter: str) -> float:
     """Return the larger of the two fingers' largest deviations over seven logs, in percent."""
-    found = gripper_results.bounds(gripper_results.identified("open"))
+    found = results.bounds(results.identified("open"))
     return float(100 * found[:, PARAMETER[parameter]].max())
 
 
 @simulated
 def excited(kind: str, end: str) -> float:
     """Return an end of the band in which the command of some logs is excited, rad/s."""
-    return gripper_results.band(kind)[("low", "high").index(end)]
+    return results.band(kind)[("low", "high").index(end)]
 
 
 @simulated
@@ -200,41 +193,35 @@ def spread_at_rest(speed: float) -> float:
 @simulated
 def angle_at_rest(side: str, kind: str = "open") -> float:
     """Return the mean of the last second of seven logs of a kind, in deg."""
-    return float(gripper_results.ends(kind)[SIDE[side]] / DEG)
-
-
-@simulated
-def reachable_angle(side: str) -> float:
-    """Return what the simulated gripper's own model can reach of 45 deg, in deg."""
-    return float(gripper_results.desired()[SIDE[side]] / DEG)
+    return float(results.ends(kind)[SIDE[side]] / DEG)
 
 
 @simulated
 def settled_on_rig(controller: str, criterion: str = "10 %") -> float:
     """Return the settling time of both fingers on the simulated gripper, median of 50 runs, s."""
-    return float(np.median(gripper_comparison.judged(controller).settling[criterion]))
+    return float(np.median(comparison.judged(controller).settling[criterion]))
 
 
 @simulated
 def tracking_error_on_rig(controller: str) -> float:
     """Return how far a finger's true end lies from its target, median of 50 runs, in deg."""
-    return float(np.median(gripper_comparison.judged(controller).error)) / DEG
+    return float(np.median(comparison.judged(controller).error)) / DEG
 
 
 @simulated
 def transient_difference_on_rig(controller: str) -> float:
     """Return the largest difference of the shares of their ways, median of 50 runs, in deg."""
-    return float(np.median(gripper_comparison.judged(controller).synchronization)) / DEG
+    return float(np.median(comparison.judged(controller).synchronization)) / DEG
 
 
 @simulated
 def identified(finger: str, parameter: str) -> float:
     """Return what the simulated gripper's steps identify, the mean of the runs, SI by mass."""
-    runs = gripper_results.identified("open")[SIDE[finger]]
+    runs = results.identified("open")[SIDE[finger]]
     return float(np.mean([getattr(one, parameter) for one in runs]))
 
 
 @simulated
 def volume_of_fingers(count: int, angle: float) -> float:
     """Return the volume that bends so many fingers by an angle [rad], in mL."""
-    return gripper_results.volume_for(count, angle) / ML
+    return results.volume_for(count, angle) / ML

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from book.chapter_6.figures import SPA
+from book.chapter_6.figures_model import SPA
 from book.companion.style import PRINTED, still, style
 from softgrip.gripper.gripper_loop import run_gripper
 from softgrip.gripper.internal_model import InternalModelController

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from book.chapter_2.forces import hour_errors
+from book.chapter_2.forces import calibrated, hour_errors
 from book.chapter_4.identified_model import identify_capacity, identify_finger
 from book.companion.show import show
 from book.live.acceptance import bands_table
@@ -286,12 +286,12 @@ def test_arrays_with_gaps_are_refused():
 
 def test_an_hour_without_one_of_its_weights_is_refused():
     force = np.array([*DRIFT_WEIGHTS, 10.0, 25.0, *DRIFT_WEIGHTS]) * GRAM_FORCE
-    reference = np.linspace(1, 3, len(DRIFT_WEIGHTS))
+    reference = calibrated()
     voltage = np.array([*reference, 1.5, 2.0, *reference])
     time = np.arange(force.size) * 16.0
-    assert len(hour_errors(time, voltage, force, reference, np.asarray)) == 2
+    assert len(hour_errors(time, voltage, force)) == 2
     with pytest.raises(InvalidInputError, match="both ends"):
-        hour_errors(time[1:], voltage[1:], force[1:], reference, np.asarray)
+        hour_errors(time[1:], voltage[1:], force[1:])
 
 
 runs = st.lists(st.tuples(st.integers(0, 271), st.integers(1, 45)), max_size=4)

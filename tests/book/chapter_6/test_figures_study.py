@@ -13,7 +13,7 @@ def test_target_is_the_printed_projection():
     assert np.array(shown.TARGET) / np.pi == pytest.approx([0.227, 0.268], abs=1e-3)
 
 
-@pytest.mark.parametrize("name", shown.COLOURS)
+@pytest.mark.parametrize("name", shown.CONTROLS)
 def test_none_that_settles_is_beyond_what_can_rest(name):
     found = shown.outcome(name, pairs=400)
     drawn = draw_grippers(PRINTED, 400, seed=shown.SEED)
@@ -26,7 +26,7 @@ def test_none_that_settles_is_beyond_what_can_rest(name):
 
 def test_no_loop_is_below_the_least_difference_of_the_nominal_pair():
     """A loop that settles in time is one of the commands that the linear program looks at."""
-    loop = shown.outcome("H for 2/s", pairs=1)
+    loop = shown.outcome("2/s", pairs=1)
     when = loop.settling[0].max()
     best = shown.trade_off(PRINTED, shown.TARGET, limit=5.0, latest=2.2)
     bound = next(b.worst_sync for b in best if b.settling >= when)
