@@ -68,8 +68,8 @@ def draw_filter(noise: float) -> Figure:
     unit = ML / MPa
     with style():
         drawn, axes = still(3.0)
-        axes.fill_between(found.time, (seen - 2 * std) / unit, (seen + 2 * std) / unit,
-                          color=LUDWICK, alpha=0.2, lw=0)  # fmt: skip
+        low, high = (seen - 2 * std) / unit, (seen + 2 * std) / unit
+        axes.fill_between(found.time, low, high, color=LUDWICK, alpha=0.2, lw=0)
         axes.plot(found.time, seen / unit, color=LUDWICK, label="filter, simulated push")
         axes.axhline(found.capacity / unit, color=LINEAR, ls="--", label="constant")
         error = 100 * found.error(found.filtered)

@@ -25,6 +25,11 @@ REGULATORS = {
 }
 
 
+def run(name, step, duration):
+    plant = StateSpacePlant(FULL)
+    return run_loop(plant, REGULATORS[name](), step, duration=duration, limit=SPEED_LIMIT)
+
+
 def test_without_a_limit_the_sampled_loop_is_the_linear_one():
     found = limited_loop(FINGER, PUMP_GAIN, GAIN, 0.5, limit=np.inf)
     time, exact = step_response(FINGER, Weights())
@@ -40,15 +45,13 @@ def test_first_command_is_the_first_gain_times_the_step():
 
 @pytest.mark.parametrize("name", REGULATORS)
 def test_every_regulator_comes_to_the_reference(name):
-    found = run_loop(StateSpacePlant(FULL), REGULATORS[name](), 1.0, duration=12.0,
-                     limit=SPEED_LIMIT)  # fmt: skip
+    found = run(name, 1.0, 12.0)
     # The explicit scheme leaves errors of jerk times 25 ms in the acceleration, noise or not.
     np.testing.assert_allclose(found.measured[-40:], 1.0, atol=0.03)
 
 
 def test_observer_with_a_true_model_and_no_noise_has_the_true_states():
-    found = run_loop(StateSpacePlant(FULL), REGULATORS["observer"](), 1.5, duration=6.0,
-                     limit=SPEED_LIMIT)  # fmt: skip
+    found = run("observer", 1.5, 6.0)
     true = limited_loop(FINGER, PUMP_GAIN, GAIN, 1.5)
     np.testing.assert_allclose(found.measured, true.measured, atol=1e-5)
 
@@ -91,8 +94,7 @@ def test_batch_of_steps_is_each_step(name):
     plant = StateSpacePlant(FULL, initial=np.zeros((3, 2)))
     batch = run_loop(plant, REGULATORS[name](), lambda _: steps, duration=2.0, limit=SPEED_LIMIT)
     for k, step in enumerate(steps):
-        one = run_loop(StateSpacePlant(FULL), REGULATORS[name](), float(step), duration=2.0,
-                       limit=SPEED_LIMIT)  # fmt: skip
+        one = run(name, float(step), 2.0)
         np.testing.assert_allclose(batch.measured[k], one.measured, atol=1e-6)
 
 

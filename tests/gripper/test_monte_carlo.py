@@ -243,10 +243,8 @@ def test_batches_of_another_shape_are_refused():
 
 def test_single_finger_of_a_batch_is_eq_6_15():
     _, angle = control.step_response(finger_state_space(PRINTED.fingers[1]), 1e-3 * np.arange(1001))
-    found = simulate(
-        GripperBatch.of(PRINTED), None, Trial(TARGET, 1.0, feedforward=(1.0,) * 10),
-        keep="trajectories",
-    )  # fmt: skip
+    trial = Trial(TARGET, 1.0, feedforward=(1.0,) * 10)
+    found = simulate(GripperBatch.of(PRINTED), None, trial, keep="trajectories")
     np.testing.assert_allclose(found.angles[0, 1], angle, atol=1e-10)
 
 

@@ -68,11 +68,8 @@ def test_rounding_margin_bounds_random_roundings():
     random = np.random.default_rng(1)
     middle, margin = np.array(plant_inside(*SLOW)), np.array(rounding_margin(*SLOW))
     for _ in range(50):
-        moved = [
-            [c if c == 1 else c + random.uniform(-0.5, 0.5) * 10 ** (np.floor(np.log10(c)) - 3)
-             for c in coefficients]
-            for coefficients in SLOW
-        ]  # fmt: skip
+        last = [10 ** (np.floor(np.log10(np.array(c))) - 3) * (np.array(c) != 1) for c in SLOW]
+        moved = [c + random.uniform(-0.5, 0.5, len(c)) * d for c, d in zip(SLOW, last, strict=True)]
         assert np.all(np.abs(np.array(plant_inside(*moved)) - middle) <= 1.01 * margin)
 
 

@@ -42,13 +42,10 @@ def test_best_way_is_the_default_and_its_score_is_counted_by_hand():
     best = ranking()[0]
     assert best.fitting == Fitting()
     found = {name: kept()[name, Fitting()] for name in table_5_1()}
-    come_out = [
-        name for name, m in table_5_1().items()
-        if round(1 / found[name], 2) == round(1 / m.fractional_power, 2)
-    ]  # fmt: skip
-    assert come_out == [
-        "Dragon Skin 10 MEDIUM", "Ecoflex 00-30", "Ecoflex 00-50", "Mold Star 16 FAST",
-    ]  # fmt: skip
+    printed = {name: m.fractional_power for name, m in table_5_1().items()}
+    come_out = [name for name, n in found.items() if round(1 / n, 2) == round(1 / printed[name], 2)]
+    expected = ["Dragon Skin 10 MEDIUM", "Ecoflex 00-30", "Ecoflex 00-50", "Mold Star 16 FAST"]
+    assert come_out == expected
     assert best.come_out == len(come_out)
 
 
