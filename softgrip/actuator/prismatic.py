@@ -1,6 +1,6 @@
 """A hollow finger of constant section in linear elasticity: what is exact of it, in closed form."""
 
-from softgrip.actuator.section import Section, chamber_area, torque, wall_area
+from softgrip.actuator.section import Section, torque
 
 
 def prismatic_torque(section: Section, pressure: float, poisson_ratio: float) -> float:
@@ -29,21 +29,3 @@ def prismatic_torque(section: Section, pressure: float, poisson_ratio: float) ->
     0.0102
     """
     return float((1 - 2 * poisson_ratio) * torque(section, pressure))
-
-
-def wall_second_moment(section: Section) -> float:
-    """Return the second moment of the wall about its centroid, m^4: I of the hollow section.
-
-    Eq. (3.8) at n = 1 has that of the solid rectangle, ``w h**3 / 12``.
-
-    Examples
-    --------
-    >>> design_1 = Section(20.0, 4.0, 30.0, 1.5)
-    >>> round(wall_second_moment(design_1) / (30 * 24**3 / 12), 3)
-    0.514
-    """
-    a, b, w, t = section.top, section.bottom, section.width, section.wall
-    A_c, A_w = chamber_area(section), wall_area(section)
-    centroid = (w * (a + b) * (a - b) / 2 - A_c * (a - t) / 2) / A_w
-    about_neutral = (w * (a**3 + b**3) - (w - 2 * t) * (a - t) ** 3) / 3
-    return float(about_neutral - A_w * centroid**2)

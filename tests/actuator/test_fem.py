@@ -10,8 +10,8 @@ from softgrip.actuator.elasticity import Elastic, Solver, nodes, pressure_load, 
 from softgrip.actuator.fem import centre_line, plate_motions, respond, solve, tip_response
 from softgrip.actuator.finger_mesh import Box, FingerShape, box_mesh, finger_mesh, voids, within
 from softgrip.actuator.printed import table_3_1
-from softgrip.actuator.prismatic import prismatic_torque, wall_second_moment
-from softgrip.actuator.section import Section, chamber_area, torque
+from softgrip.actuator.prismatic import prismatic_torque
+from softgrip.actuator.section import Section, chamber_area, torque, wall_area
 from softgrip.errors import InvalidInputError, UnknownNameError
 from softgrip.provenance import Provenance, data_file
 from softgrip.units import MM
@@ -20,6 +20,15 @@ DESIGN_1 = Section(20 * MM, 4 * MM, 30 * MM, 1.5 * MM)
 COARSE = 6 * MM
 RUBBER = Elastic()
 SHAPES = {"beam": FingerShape(DESIGN_1), "chambers": FingerShape(DESIGN_1, 6)}
+
+
+def wall_second_moment(section):
+    """Return the second moment of the wall about its centroid, m^4: I of the hollow section."""
+    a, b, w, t = section.top, section.bottom, section.width, section.wall
+    A_c, A_w = chamber_area(section), wall_area(section)
+    centroid = (w * (a + b) * (a - b) / 2 - A_c * (a - t) / 2) / A_w
+    about_neutral = (w * (a**3 + b**3) - (w - 2 * t) * (a - t) ** 3) / 3
+    return about_neutral - A_w * centroid**2
 
 
 @pytest.fixture(scope="module", params=SHAPES)
