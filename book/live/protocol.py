@@ -8,8 +8,15 @@ import pandas as pd
 from book.companion.chips import Markdown
 from softgrip.board.firmware.header import TYPES
 from softgrip.board.framing import LARGEST
-from softgrip.board.message import Message
-from softgrip.board.protocol import BAUD, MESSAGES, PROTOCOL_VERSION, TABLE, TELEMETRY
+from softgrip.board.protocol import (
+    BAUD,
+    MESSAGES,
+    PROTOCOL_VERSION,
+    TABLE,
+    TELEMETRY,
+    Message,
+    in_words,
+)
 
 FRAME = 2 + 2 + 1 + 1
 """Bytes of a frame beside its payload: id, number; CRC; the byte of COBS; the 0 at the end."""
@@ -72,17 +79,12 @@ def all_fields() -> Markdown:
 
 def bit_table(flags: type[IntFlag]) -> pd.DataFrame:
     """Tabulate the bits of flags."""
-    return pd.DataFrame(
-        {"bit": one.bit_length() - 1, "name": (one.name or "").lower().replace("_", " ")}
-        for one in flags
-    )
+    return pd.DataFrame({"bit": one.bit_length() - 1, "name": in_words(one)} for one in flags)
 
 
 def reason_table(reasons: type[IntEnum]) -> pd.DataFrame:
     """Tabulate the values of an enumeration."""
-    return pd.DataFrame(
-        {"value": int(one), "name": one.name.lower().replace("_", " ")} for one in reasons
-    )
+    return pd.DataFrame({"value": int(one), "name": in_words(one)} for one in reasons)
 
 
 def telemetry_bytes() -> int:

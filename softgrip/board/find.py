@@ -7,7 +7,6 @@ from typing import Protocol
 from serial.tools import list_ports
 
 from softgrip.board.errors import BoardError, NoBoardError
-from softgrip.board.handshake import greet
 from softgrip.board.link import SerialLink
 from softgrip.board.session import Session
 
@@ -60,9 +59,9 @@ def _greeted(port: str) -> tuple[str, bool]:
         link = SerialLink(port)
     except BoardError as error:
         return str(error), False
-    session = Session(link, port, background=True)
+    session = Session(link)
     try:
-        return f"build {greet(session)['build']:08x}", True
+        return f"build {session.greet()['build']:08x}", True
     except BoardError as error:
         return str(error), False
     finally:

@@ -3,9 +3,7 @@
 from dataclasses import dataclass
 
 from softgrip.board.calibration import SensorLine
-from softgrip.board.protocol import SPEED_SCALE, ResetCause, SetUp
-from softgrip.board.session import Values
-from softgrip.errors import InvalidInputError
+from softgrip.board.protocol import SPEED_SCALE, ResetCause, SetUp, Values
 from softgrip.simulator.parameters import PumpParameters
 from softgrip.units import REV
 
@@ -65,17 +63,13 @@ class Scale:
 
     def limits_in(self, told: Values, prefix: str = "") -> Limits:
         """Return the limits in an answer to HELLO; prefixed ``hard_`` are the bounds on them."""
-        pressure, position, speed, acceleration, silence = (
-            integer(told, prefix + name)
-            for name in ("pressure", "position", "speed", "acceleration", "silence")
-        )
         turn = REV / self.steps
         return Limits(
-            pressure=float(self.pressure.value(pressure)),
-            travel=self.travel_in(position),
-            speed=speed * turn,
-            acceleration=acceleration * turn,
-            silence=silence * 1e-3,
+            pressure=float(self.pressure.value(told[f"{prefix}pressure"])),
+            travel=self.travel_in(told[f"{prefix}position"]),
+            speed=told[f"{prefix}speed"] * turn,
+            acceleration=told[f"{prefix}acceleration"] * turn,
+            silence=told[f"{prefix}silence"] * 1e-3,
         )
 
     def limits_out(self, limits: Limits) -> dict[str, int]:
@@ -121,21 +115,13 @@ class BoardInfo:
     @classmethod
     def of(cls, told: Values, usb_serial: str, scale: Scale) -> "BoardInfo":
         """Return what an answer to HELLO says."""
-        build = f"{integer(told, 'build'):08x}"
+        build = f"{told['build']:08x}"
         return cls(
             identity=usb_serial or f"build {build}",
             build=build,
-            set_up=SetUp(integer(told, "set_up")),
-            reset_cause=ResetCause(integer(told, "reset_cause")),
+            set_up=SetUp(told["set_up"]),
+            reset_cause=ResetCause(told["reset_cause"]),
             valve=bool(told["valve"]),
             limits=scale.limits_in(told),
             bounds=scale.limits_in(told, "hard_"),
         )
-
-
-def integer(told: Values, name: str) -> int:
-    """Return a field that is one number."""
-    value = told[name]
-    if isinstance(value, tuple):
-        raise InvalidInputError(name, expected="one number", got=value)
-    return value

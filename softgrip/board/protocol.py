@@ -11,11 +11,14 @@ ahead of the last one (what is skipped is counted as lost), acknowledges a repea
 without carrying it out, and refuses an older one as stale; an emergency stop it always obeys.
 """
 
+import struct
+from dataclasses import dataclass
 from enum import IntEnum, IntFlag
+from functools import cached_property
+from typing import Any
 from zlib import crc32
 
-from softgrip.board.message import Field
-from softgrip.board.message import Message as Message
+from softgrip.errors import InvalidInputError
 from softgrip.logs.schema import PAD_CHANNELS
 
 PROTOCOL_VERSION = 1
@@ -29,6 +32,85 @@ SPEED_SCALE = 256
 """Speeds are in 1/256 step/s."""
 CHANNELS = (*PAD_CHANNELS, "pressure", "flex_1", "flex_2", "spare_1", "spare_2")
 """Of the converter, A0 to A13 of the board."""
+
+Values = dict[str, Any]
+"""Of a message's fields by name: a whole number, or a tuple of them for an array."""
+
+
+@dataclass(frozen=True)
+class Field:
+    """One number of a message, or an array of them: name, code of `struct`, unit, words."""
+
+    name: str
+    code: str
+    unit: str
+    words: str
+    count: int = 1
+
+
+@dataclass(frozen=True)
+class Message:
+    """A message: name, id (from the host below 128), words, fields.
+
+    Examples
+    --------
+    >>> turn = Message("turn", 2, "Turn.", (Field("speed", "i", "step/s", ""),))
+    >>> turn.pack(speed=-2).hex(), turn.unpack(turn.pack(speed=-2))
+    ('feffffff', {'speed': -2})
+    """
+
+    name: str
+    id: int
+    words: str
+    fields: tuple[Field, ...] = ()
+
+    @cached_property
+    def layout(self) -> struct.Struct:
+        """Its payload, little-endian and unpadded."""
+        codes = (f"{field.count if field.count > 1 else ''}{field.code}" for field in self.fields)
+        return struct.Struct("<" + "".join(codes))
+
+    def pack(self, **values: Any) -> bytes:
+        """Return the payload that holds a value for each field.
+
+        Raises
+        ------
+        InvalidInputError
+            If a field is missing, unknown, or its value does not fit.
+        """
+        names = [field.name for field in self.fields]
+        if sorted(values) != sorted(names):
+            raise InvalidInputError(self.name, expected=f"fields {names}", got=sorted(values))
+        flat: list[int] = []
+        for field in self.fields:
+            value = values[field.name]
+            flat.extend(value if isinstance(value, tuple) else (value,))
+        try:
+            return self.layout.pack(*flat)
+        except struct.error as error:
+            raise InvalidInputError(
+                self.name, expected=f"numbers that fit {self.layout.format}", got=values
+            ) from error
+
+    def unpack(self, payload: bytes) -> Values:
+        """Return the values in a payload, a tuple for an array.
+
+        Raises
+        ------
+        InvalidInputError
+            If the payload's length is another one.
+        """
+        if len(payload) != self.layout.size:
+            raise InvalidInputError(
+                self.name, expected=f"{self.layout.size} bytes of payload", got=len(payload)
+            )
+        numbers = iter(self.layout.unpack(payload))
+        return {
+            field.name: tuple(next(numbers) for _ in range(field.count))
+            if field.count > 1
+            else next(numbers)
+            for field in self.fields
+        }
 
 
 class SetUp(IntEnum):
@@ -85,6 +167,25 @@ class ResetCause(IntFlag):
     BROWN_OUT = 4
     WATCHDOG = 8
     JTAG = 16
+
+
+def in_words(one: IntEnum | IntFlag) -> str:
+    """Return the name of a reason, or of the flags that are up, as one says it.
+
+    >>> in_words(Reason.NOT_HOMED), in_words(Flag.HOMED | Flag.OVER_PRESSURE)
+    ('not homed', 'homed, over pressure')
+    """
+    parts = one if isinstance(one, IntFlag) else (one,)
+    return ", ".join((part.name or "").lower().replace("_", " ") for part in parts)
+
+
+def reason_in_words(number: int) -> str:
+    """Return a reason in words, also one that is not known here.
+
+    >>> reason_in_words(7), reason_in_words(99)
+    ('not homed', 'reason 99')
+    """
+    return next((in_words(one) for one in Reason if one == number), f"reason {number}")
 
 
 LIMITS = (

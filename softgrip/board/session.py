@@ -2,18 +2,37 @@
 
 import threading
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from softgrip.board.errors import (
     BoardError,
     BoardResetError,
     CommandRefusedError,
     NoAnswerError,
+    NoBoardError,
+    VersionMismatchError,
 )
 from softgrip.board.framing import Frame, FrameReader, encode
 from softgrip.board.link import Link
-from softgrip.board.protocol import ACK, BY_ID, HEARTBEAT, NACK, TELEMETRY, Flag, Message, Reason
-from softgrip.board.telemetry import Telemetry, in_words, reason_name
+from softgrip.board.protocol import (
+    ACK,
+    BY_ID,
+    HEARTBEAT,
+    HELLO,
+    NACK,
+    PROTOCOL_VERSION,
+    TABLE,
+    TELEMETRY,
+    Flag,
+    Message,
+    Reason,
+    Values,
+    in_words,
+    reason_in_words,
+)
 
+GREET_WITHIN = 6.0
+"""s: an Arduino that was reset by the opening of its port answers after one to two."""
 HEARTBEAT_EVERY = 0.05
 """s: a quarter of the silence that the board allows."""
 READ_FOR = 0.01
@@ -22,7 +41,38 @@ ANSWER_WITHIN = 0.25
 """s for an answer, before a command is sent again."""
 TRIES = 4
 
-Values = dict[str, int | tuple[int, ...]]
+
+@dataclass(frozen=True)
+class Telemetry:
+    """A telemetry frame.
+
+    Attributes
+    ----------
+    number
+        Of the frame, round from 65535.
+    time
+        Since the board's reset, s.
+    channels
+        Counts, in the order of `protocol.CHANNELS`.
+    position, speed
+        In steps, and in the board's unit of speed.
+    flags
+        The board's state.
+    """
+
+    number: int
+    time: float
+    channels: tuple[int, ...]
+    position: int
+    speed: int
+    flags: Flag
+
+    @classmethod
+    def of(cls, payload: bytes) -> "Telemetry":
+        """Return the content of a frame's payload."""
+        number, time, *more = TELEMETRY.layout.unpack(payload)
+        position, speed, flags, _ = more[-4:]
+        return cls(number, time * 1e-3, tuple(more[:-4]), position, speed, Flag(flags))
 
 
 class Session:
@@ -34,12 +84,8 @@ class Session:
     Parameters
     ----------
     link
-        The line.
-    port
-        Its name, for messages.
-    background
-        Whether a thread listens and keeps the heart beating between calls. A line whose clock
-        stands still between readings must not have one: its caller's waiting does both.
+        The line. If it is a real-time one, a thread listens and keeps the heart beating between
+        calls; else its clock stands still meanwhile, and the caller's waiting does both.
 
     Attributes
     ----------
@@ -51,8 +97,8 @@ class Session:
         Telemetry frames that never came, by their numbers.
     """
 
-    def __init__(self, link: Link, port: str, *, background: bool) -> None:
-        self.link, self.port = link, port
+    def __init__(self, link: Link) -> None:
+        self.link, self.port = link, link.name
         self.reader = FrameReader()
         self.telemetry: Telemetry | None = None
         self.heard_at, self.lost = link.now(), 0
@@ -63,15 +109,14 @@ class Session:
         self._news = threading.Condition()
         self._closing = False
         self._thread: threading.Thread | None = None
-        if background:
+        if link.real_time:
             self._thread = threading.Thread(target=self._listen, name="softgrip link", daemon=True)
             self._thread.start()
 
     @property
     def state(self) -> str:
         """The board's flags in words; empty before telemetry."""
-        flags = Flag(0) if self.telemetry is None else self.telemetry.flags
-        return ", ".join(in_words(flags))
+        return "" if self.telemetry is None else in_words(self.telemetry.flags)
 
     def alive_for(self, seconds: float) -> None:
         """Let the heart beat for some seconds from now, and no longer.
@@ -112,9 +157,44 @@ class Session:
                 raise BoardResetError(self.port, "the board was reset", command=message.name)
             if reason != Reason.STALE:  # it was overtaken: say it again
                 raise CommandRefusedError(
-                    self.port, reason_name(reason), command=message.name, state=self.state
+                    self.port, reason_in_words(reason), command=message.name, state=self.state
                 )
         raise NoAnswerError(self.port, "no answer", command=message.name, state=self.state)
+
+    def greet(self, within: float = GREET_WITHIN) -> Values:
+        """Say HELLO until a board answers, and return its answer.
+
+        Raises
+        ------
+        VersionMismatchError
+            If the firmware was made from another table of messages.
+        NoBoardError
+            If nothing answers.
+        """
+        payload = HELLO.pack(version=PROTOCOL_VERSION, table=TABLE)
+        deadline = self.link.now() + within
+        while True:
+            try:
+                told = self.say(HELLO, payload, tries=1)
+                break
+            except NoAnswerError:
+                if self.link.now() >= deadline:
+                    raise NoBoardError(
+                        self.port, f"no board answered in {within:g} s: is softgrip_rig flashed?"
+                    ) from None
+            except CommandRefusedError as error:
+                if error.reason != in_words(Reason.WRONG_VERSION):
+                    raise
+                told = {}
+                break
+        if (told.get("version"), told.get("table")) != (PROTOCOL_VERSION, TABLE):
+            raise VersionMismatchError(
+                self.port,
+                f"the firmware is not of this softgrip, which speaks protocol {PROTOCOL_VERSION} "
+                f"({TABLE:08x}): flash softgrip/board/firmware/softgrip_rig/softgrip_rig.ino",
+                command="hello",
+            )
+        return told
 
     def wait(self, done: Callable[[], bool], seconds: float, what: str) -> None:
         """Listen until something is so; NoAnswerError if it is not within some seconds."""

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softgrip.board.driver import Rig
+from softgrip.board.driver import Board
 from softgrip.board.errors import BoardError
-from softgrip.board.protocol import TELEMETRY_PERIOD, Flag, SetUp
-from softgrip.board.telemetry import Telemetry, in_words
+from softgrip.board.protocol import TELEMETRY_PERIOD, Flag, ResetCause, SetUp, in_words
+from softgrip.board.session import Telemetry
 from softgrip.logs.gaps import find_gaps, places
 from softgrip.logs.schema import PAD_CHANNELS
 from softgrip.rig.interface import Connection
@@ -40,10 +40,10 @@ class Finding:
 
 def check(connection: Connection) -> list[Finding]:
     """Listen to a rig at rest, and judge what it says."""
-    board = connection if isinstance(connection, Rig) else None
+    board = connection if isinstance(connection, Board) else None
     found = [] if board is None else _board(board)
-    begin = None if board is None else (board.line.session.link.now(), board.telemetry.number)
-    lost = 0 if board is None else board.lost
+    begin = None if board is None else (board.session.link.now(), board.telemetry.number)
+    lost = 0 if board is None else board.session.lost
     pad = board if board is not None and board.info.set_up is SetUp.PAD else None
     if pad is not None:
         told = [pad.listen() for _ in range(round(LISTEN / TELEMETRY_PERIOD))]
@@ -58,9 +58,9 @@ def check(connection: Connection) -> list[Finding]:
             channels.append(_channel(f"angle {finger + 1}", counts, angles, 1 / DEG, "deg"))
     if board is not None and begin is not None:
         frames = (board.telemetry.number - begin[1]) % 65536
-        rate = frames / (board.line.session.link.now() - begin[0])
-        good = abs(rate * TELEMETRY_PERIOD - 1) < RATE_WITHIN and board.lost == lost
-        words = f"{rate:.2f} Hz, {board.lost - lost} of {frames} frames lost"
+        rate = frames / (board.session.link.now() - begin[0])
+        good = abs(rate * TELEMETRY_PERIOD - 1) < RATE_WITHIN and board.session.lost == lost
+        words = f"{rate:.2f} Hz, {board.session.lost - lost} of {frames} frames lost"
         found.append(Finding("telemetry", good, words))
     if isinstance(connection, ReplayConnection):
         mended = connection.log.repairs
@@ -82,16 +82,16 @@ def _pad(told: Sequence[Telemetry]) -> list[Finding]:
     ]
 
 
-def _board(rig: Rig) -> list[Finding]:
+def _board(rig: Board) -> list[Finding]:
     info, limits, bounds = rig.info, rig.info.limits, rig.info.bounds
     flags = rig.telemetry.flags
     faults = flags & (Flag.ESTOPPED | Flag.SENSOR_RANGE | Flag.SENSOR_STUCK | Flag.SWITCH_FAULT)
-    named = info.reset_cause.name or str(int(info.reset_cause))
+    cause = info.reset_cause
     within = all(getattr(limits, name) <= getattr(bounds, name) for name in vars(limits))
     return [
         Finding("handshake", True, f"{info.set_up.name}, firmware build {info.build}"),
-        Finding("last reset", "WATCHDOG" not in named, named.replace("|", ", ").lower()),
-        Finding("faults", not faults, ", ".join(in_words(faults)) or "none"),
+        Finding("last reset", not cause & ResetCause.WATCHDOG, in_words(cause) or "unknown"),
+        Finding("faults", not faults, in_words(faults) or "none"),
         Finding(
             "limits",
             within,

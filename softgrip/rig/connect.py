@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 from softgrip.board.calibration import load
-from softgrip.board.driver import Rig
+from softgrip.board.driver import Board
 from softgrip.board.find import find_board
 from softgrip.board.protocol import TELEMETRY_PERIOD
 from softgrip.errors import UnknownNameError
@@ -66,4 +66,4 @@ def connect(
         print(f"found {found}", file=sys.stderr)
         where = found.port
     lines = None if calibration is None else load(calibration)
-    return Rig(where, fingers=fingers, period=period, calibration=lines, emulated=emulated)
+    return Board(where, fingers=fingers, period=period, calibration=lines, emulated=emulated)

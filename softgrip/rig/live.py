@@ -8,7 +8,7 @@ from weakref import WeakSet
 
 from numpy.typing import ArrayLike
 
-from softgrip.board.driver import Rig
+from softgrip.board.driver import Board
 from softgrip.control.rig_controller import Tracking
 from softgrip.errors import InvalidInputError
 from softgrip.rig.interface import Connection
@@ -86,7 +86,7 @@ class LiveRun:
         self.state = "ready"
         self.recording: Recording | None = None
         self.error: Exception | None = None
-        self._rest, self._paced = rest, real_time and not isinstance(connection, Rig)
+        self._rest, self._paced = rest, real_time and not isinstance(connection, Board)
         self._control = Tracking(experiment.controller(), experiment.reference)
         self._command, self._begun = 0.0, 0.0
         self._halt = threading.Event()

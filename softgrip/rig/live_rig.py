@@ -1,6 +1,6 @@
 """What the live page asks of a rig before it drives it."""
 
-from softgrip.board.driver import Rig
+from softgrip.board.driver import Board
 from softgrip.control.pid import PERIOD
 from softgrip.errors import InvalidInputError
 from softgrip.rig.interface import Connection
@@ -12,7 +12,7 @@ def listens(connection: Connection) -> bool:
     A board on a port can: the driver listens in the background. Whatever is computed or emulated
     in virtual time can not, and is told between two periods.
     """
-    return isinstance(connection, Rig) and connection.line.port != "link"
+    return isinstance(connection, Board) and connection.real_time
 
 
 def check_period(connection: Connection) -> None:

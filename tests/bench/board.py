@@ -5,8 +5,7 @@ from math import ceil
 import numpy as np
 
 from softgrip.board.emulated.board import EmulatedBoard
-from softgrip.board.emulated.build import missing, sizes
-from softgrip.board.emulated.library import built
+from softgrip.board.emulated.build import firmware, missing, sizes
 from softgrip.board.protocol import ESTOP, HEARTBEAT, SETPOINT, TELEMETRY_PERIOD, Flag
 from tests.bench.entry import Entry
 from tests.board.host import Host, pushing_host
@@ -105,7 +104,7 @@ def entries(*, seconds: float = 600.0, count: int = 1000, stops: int = 100) -> l
             f" Median {np.median(ends):.2f} ms.",
         ),
     ]
-    used = zip(("flash", "RAM"), sizes(built()), (FLASH, RAM), strict=True)
+    used = zip(("flash", "RAM"), sizes(firmware()), (FLASH, RAM), strict=True)
     for name, size, room in used:
         found.append(
             Entry(

@@ -46,6 +46,8 @@ class StubBoard:
     many telemetry frames, `table` and `build` make another firmware, `reset()` starts it anew.
     """
 
+    name, real_time = "stub", False
+
     def __init__(self, *, valve=False, table=TABLE, build=0xC0FFEE, rig=None):
         self.rig = rig or Simulation(design_1(), period=TELEMETRY_PERIOD)
         self.valve, self.table, self.build = valve, table, build

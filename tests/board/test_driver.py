@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from softgrip.board.calibration import nominal
-from softgrip.board.commands import HUNG_AFTER
-from softgrip.board.driver import Rig
+from softgrip.board.driver import HUNG_AFTER, Board
 from softgrip.board.errors import (
     BoardResetError,
     CommandRefusedError,
@@ -31,7 +30,7 @@ from tests.rig.test_live import until
 
 @pytest.fixture
 def rig(stub):
-    with Rig(stub) as opened:
+    with Board(stub) as opened:
         opened.home()
         yield opened
 
@@ -50,7 +49,7 @@ def push_until(rig, event, samples=400):
 def test_another_firmware_is_refused_and_what_to_flash_is_said():
     board = StubBoard(table=TABLE ^ 1)
     with pytest.raises(VersionMismatchError, match=r"flash .*softgrip_rig\.ino"):
-        Rig(board)
+        Board(board)
     assert board.closed
     assert "setpoint" not in board.received
 
@@ -58,7 +57,7 @@ def test_another_firmware_is_refused_and_what_to_flash_is_said():
 def test_nothing_that_answers_is_no_board(stub):
     stub.deaf = True
     with pytest.raises(NoBoardError, match="flashed"):
-        Rig(stub)
+        Board(stub)
     assert stub.closed
 
 
@@ -70,26 +69,27 @@ def test_a_board_that_is_still_in_its_boot_loader_is_waited_for(stub):
         write(data)
 
     stub.write = later
-    with Rig(stub) as rig:
+    with Board(stub) as rig:
         assert rig.info.build == "00c0ffee"
 
 
 def test_connecting_moves_nothing(stub):
-    with Rig(stub):
+    with Board(stub):
         assert "home" not in stub.received
         assert stub.speed == 0
 
 
 def test_a_calibration_of_another_board_is_refused(stub):
     with pytest.raises(WrongBoardError, match="calibrate this board"):
-        Rig(stub, calibration=replace(nominal(1), board="another"))
-    Rig(StubBoard(), calibration=replace(nominal(1), board="build 00c0ffee")).line.close()
+        Board(stub, calibration=replace(nominal(1), board="another"))
+    with Board(StubBoard(), calibration=replace(nominal(1), board="build 00c0ffee")):
+        pass
 
 
 @pytest.mark.parametrize("changes", [{"period": 0.03}, {"period": 0.0}, {"fingers": 3}])
 def test_arguments_out_of_range(stub, changes):
     with pytest.raises(InvalidInputError):
-        Rig(stub, **changes)
+        Board(stub, **changes)
 
 
 # Units.
@@ -108,10 +108,10 @@ def test_a_speed_becomes_steps(rig, stub):
 
 
 def test_a_longer_period_skips_telemetry(stub):
-    with Rig(stub, period=0.1) as rig:
+    with Board(stub, period=0.1) as rig:
         times = [rig.advance(0.0).time for _ in range(5)]
         assert np.diff(times) == pytest.approx(0.1, abs=1e-9)
-        assert rig.lost == 0
+        assert rig.session.lost == 0
 
 
 def test_homing_that_is_broken_off_stops():
@@ -123,7 +123,7 @@ def test_homing_that_is_broken_off_stops():
         if len(turned) == 20:
             raise KeyboardInterrupt
 
-    with Rig(board) as rig:
+    with Board(board) as rig:
         sample = board._sample
         board._sample = lambda: (sample(), interrupt())
         with pytest.raises(KeyboardInterrupt):
@@ -174,7 +174,7 @@ def test_lost_telemetry_is_counted_and_told(rig, stub):
     stub.swallow = 3
     begin = rig.measure().time
     assert rig.advance(0.0).time == pytest.approx(begin + 4 * TELEMETRY_PERIOD)
-    assert rig.lost == 3
+    assert rig.session.lost == 3
     assert "telemetry lost: 3" in rig.take_event()
     assert "lost" not in rig.take_event()
 
@@ -182,10 +182,10 @@ def test_lost_telemetry_is_counted_and_told(rig, stub):
 def test_numbers_of_telemetry_go_round(rig, stub):
     stub.number = 65533
     rig.advance(0.0)
-    rig.line.session.lost = 0
+    rig.session.lost = 0
     for _ in range(6):
         rig.advance(0.0)
-    assert rig.lost == 0
+    assert rig.session.lost == 0
 
 
 def test_an_answer_that_is_lost_is_asked_for_again(rig, stub):
@@ -213,7 +213,7 @@ def test_homing_goes_on_though_its_answer_is_lost():
             say(message, sequence, **values)
 
     board._say = losing
-    with Rig(board) as rig:
+    with Board(board) as rig:
         rig.home()
         assert rig.telemetry.flags & Flag.HOMED
     assert lost
@@ -224,7 +224,7 @@ def test_a_board_that_falls_silent_is_a_typed_error_with_its_state(rig, stub):
     stub.deaf = True
     with pytest.raises(NoAnswerError) as caught:
         rig.advance(0.0)
-    assert (caught.value.port, caught.value.command) == ("link", "setpoint")
+    assert (caught.value.port, caught.value.command) == ("stub", "setpoint")
     assert "homed" in caught.value.state
     assert isinstance(caught.value, ConnectionLostError)
     stub.deaf = False
@@ -235,8 +235,8 @@ def test_noise_on_the_line_is_thrown_away(rig, stub):
         bytes(range(1, 60)) + b"\0" + encode(Frame(200, 0, b"what?")) + encode(Frame(130, 1))
     )
     rig.advance(0.0)
-    assert rig.line.session.reader.bad == 1
-    assert rig.lost == 0
+    assert rig.session.reader.bad == 1
+    assert rig.session.lost == 0
 
 
 def test_a_reset_of_the_board_is_seen_and_asks_for_homing(rig, stub):
@@ -277,7 +277,7 @@ def test_an_answer_that_came_before_a_fault_counts(rig, stub):
         stub.out[:0] = answer
 
     stub._handle = answer_and_begin_anew
-    assert rig.line.session.ask(SETPOINT, speed=0) == {"id": SETPOINT.id}
+    assert rig.session.ask(SETPOINT, speed=0) == {"id": SETPOINT.id}
     stub._handle = handle
     with pytest.raises(BoardResetError):
         rig.listen()
@@ -304,14 +304,14 @@ def test_a_line_that_stays_lost_is_given_up(rig, stub):
 
 
 def test_the_heart_beats_while_nothing_is_asked(rig, stub):
-    rig.line.session.wait(lambda: stub.now() > 3.0, 10.0, "time")
+    rig.session.wait(lambda: stub.now() > 3.0, 10.0, "time")
     assert not rig.telemetry.flags & Flag.HOST_SILENT
 
 
 def test_a_program_that_hangs_does_not_keep_the_motor_turning(rig, stub):
     rig.advance(REV)
     begin = stub.now()
-    rig.line.session.wait(lambda: stub.speed == 0, 5.0, "stop")
+    rig.session.wait(lambda: stub.speed == 0, 5.0, "stop")
     # The lease of the command, the silence that the board allows, and the grain of the stub.
     assert stub.now() - begin < HUNG_AFTER + TELEMETRY_PERIOD + 0.2 + 0.06
     assert stub.flags & Flag.HOST_SILENT
@@ -322,7 +322,7 @@ def test_a_program_that_hangs_does_not_keep_the_motor_turning(rig, stub):
 
 def test_leaving_stops_vents_and_closes():
     board = StubBoard(valve=True)
-    with Rig(board) as rig:
+    with Board(board) as rig:
         rig.home()
         assert not board.flags & Flag.VALVE_OPEN
         rig.advance(REV)
@@ -338,7 +338,7 @@ def test_without_a_valve_nothing_is_vented(rig, stub):
 
 def test_the_first_error_is_the_one_told(stub):
     def run():
-        with Rig(stub) as rig:
+        with Board(stub) as rig:
             rig.home()
             stub.deaf = True
             raise ZeroDivisionError
@@ -349,7 +349,7 @@ def test_the_first_error_is_the_one_told(stub):
 
 
 def test_a_stop_that_is_not_heard_is_an_error(stub):
-    with pytest.raises(NoAnswerError), Rig(stub):
+    with pytest.raises(NoAnswerError), Board(stub):
         stub.deaf = True
     assert stub.closed
 
@@ -363,7 +363,7 @@ def test_counters_of_the_board(rig, stub):
 
 def test_over_a_terminal(pty_board):
     name, board = pty_board
-    with Rig(name, emulated=True) as rig:
+    with Board(name, emulated=True) as rig:
         rig.home()
         begin = time.monotonic()
         found = [rig.advance(REV) for _ in range(8)]
@@ -371,7 +371,7 @@ def test_over_a_terminal(pty_board):
         assert time.monotonic() - begin > 0.17
         assert np.diff([one.time for one in found]).min() > 0
         with pytest.raises(PortUnavailableError, match="another program"):
-            Rig(name)
+            Board(name)
         rig.stop()
         begin = board.now()
         until(lambda: board.now() > begin + 0.5)  # longer than the board's patience
@@ -382,7 +382,7 @@ def test_over_a_terminal(pty_board):
 
 
 def test_over_a_socket(socket_board):
-    with Rig(socket_board.url, emulated=True) as rig:
+    with Board(socket_board.url, emulated=True) as rig:
         rig.home()
         assert rig.advance(REV).pressure.shape == (1,)
         rig.advance(REV)

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from softgrip.board.driver import Rig
-from softgrip.board.emulated.emulated_rig import EmulatedRig
+from softgrip.board.driver import Board
+from softgrip.board.emulated.link import EmulatedFingers
 from softgrip.board.emulated.terminal import Terminal
 from softgrip.board.errors import ConnectionLostError, PortUnavailableError
 from softgrip.logs.reader import read_log
@@ -26,7 +26,7 @@ SPEED = 1.0
 """rad/s: 127 steps a second, so that the last step tells the end of motion to 8 ms."""
 
 
-class Cable(EmulatedRig):
+class Cable(EmulatedFingers):
     """A line that can be pulled for some seconds; the board's time goes on meanwhile."""
 
     pulled_at = pulled_until = -1.0
@@ -53,7 +53,7 @@ def test_a_cable_pulled_and_put_back(tmp_path):
                 line.pull(1.0)
             return SPEED
 
-    with Rig(line, emulated=True) as rig:
+    with Board(line, emulated=True) as rig:
         rig.home()
         line.board.edges()
         made = record(rig, Pulls(), 3.0, path)
@@ -69,7 +69,7 @@ def test_a_cable_pulled_and_put_back(tmp_path):
     assert (log["time"][-1], log["command"][-1]) == (pytest.approx(3.0, abs=0.03), SPEED)
 
 
-class Listened(EmulatedRig):
+class Listened(EmulatedFingers):
     """A line that knows when the host's last bytes came, by the board's time."""
 
     heard = 0.0
@@ -81,13 +81,13 @@ class Listened(EmulatedRig):
 
 DRIVEN = """
 import sys
-from softgrip.board.driver import Rig
+from softgrip.board.driver import Board
 from softgrip.rig.record import record
 
 def say(done, duration):
     print(done, flush=True)
 
-rig = Rig(sys.argv[1], emulated=True)
+rig = Board(sys.argv[1], emulated=True)
 rig.home()
 record(rig, [1.0] * 10_000, 250.0, sys.argv[2], progress=say)
 """
@@ -127,14 +127,14 @@ def test_a_killed_host_stops_the_board_and_leaves_a_log_that_lacks_a_second_at_m
 FULL_DISK = """
 import resource, sys
 from softgrip.rig.record import record
-from softgrip.board.emulated.emulated_rig import open_rig
+from softgrip.board.emulated.link import emulated_finger
 
-with open_rig() as rig:
+with emulated_finger() as rig:
     rig.home()
     resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
-    begin = rig.line.time
+    begin = rig.time
     made = record(rig, [0.1] * 200, 5.0, sys.argv[1])
-    assert rig.line.time - begin > 4.9
+    assert rig.time - begin > 4.9
 print(made.samples, made.log_failure)
 """
 
@@ -151,10 +151,10 @@ def test_a_full_disk_ends_the_log_and_not_the_run(tmp_path):
 
 
 def test_a_second_host_is_refused_and_the_first_goes_on():
-    with Terminal(EmulatedRig()) as port, Rig(port, emulated=True) as first:
+    with Terminal(EmulatedFingers()) as port, Board(port, emulated=True) as first:
         with pytest.raises(PortUnavailableError, match="another program"):
-            Rig(port, emulated=True)
+            Board(port, emulated=True)
         first.home()
-        before = first.line.time
+        before = first.time
         first.advance(SPEED)
-        assert first.line.time > before
+        assert first.time > before

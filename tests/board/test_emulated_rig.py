@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from softgrip.board.driver import Rig
+from softgrip.board.driver import Board
 from softgrip.board.emulated.board import EmulatedBoard
-from softgrip.board.emulated.emulated_rig import STEPS, EmulatedRig, finger, gripper, open_rig
+from softgrip.board.emulated.link import STEPS, EmulatedFingers, emulated_finger, finger, gripper
 from softgrip.board.emulated.terminal import Terminal
 from softgrip.board.protocol import CHANNELS, SETPOINT
 from softgrip.units import REV
@@ -38,14 +38,14 @@ def test_a_count_reads_as_itself(count):
 
 def test_the_emulated_rig_moves_as_the_simulated_one():
     speed = 8.0  # rad/s
-    with open_rig() as rig:
+    with emulated_finger() as rig:
         rig.home()
-        homed_in = rig.line.time
+        homed_in = rig.time
         seen = [rig.advance(speed) for _ in range(80)]
-        pushed_in = rig.line.time - homed_in
-        truth = rig.line.session.link.plant.truth
+        pushed_in = rig.time - homed_in
+        truth = rig.session.link.plant.truth
         assert rig.info.bounds.speed == pytest.approx(5 * REV)
-        assert STEPS == 800 == rig.line.scale.steps
+        assert STEPS == 800 == rig.scale.steps
     # The same plunger without a board: drawn out, and pushed as far in the same times.
     alone = finger(position=200)
     advance = alone.parameters.pump.advance
@@ -62,8 +62,8 @@ def test_the_emulated_rig_moves_as_the_simulated_one():
 
 
 def test_a_gripper_has_two_fingers():
-    link = EmulatedRig(gripper())
-    with Rig(link, fingers=2, emulated=True) as rig:
+    link = EmulatedFingers(gripper())
+    with Board(link, fingers=2, emulated=True) as rig:
         rig.home()
         seen = np.mean([rig.advance(3.0).angle for _ in range(60)][-8:], axis=0)
         left, right = link.plant.truth.angle[:, 0]
@@ -73,7 +73,7 @@ def test_a_gripper_has_two_fingers():
 
 def test_pyserial_opens_it():
     # Real time: what is asserted is that it works, not how fast on a busy machine.
-    with Terminal(EmulatedRig()) as port, Rig(port, emulated=True) as rig:
+    with Terminal(EmulatedFingers()) as port, Board(port, emulated=True) as rig:
         rig.home()
         first, last = rig.advance(5.0), rig.advance(5.0)
         assert last.time > first.time

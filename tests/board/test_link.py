@@ -133,7 +133,7 @@ def test_no_such_port():
         SerialLink("/dev/ttyNONE")
     with pytest.raises(PortUnavailableError):
         SerialLink("carrier-pigeon://roof")
-    with pytest.raises(InvalidInputError, match="url"):
+    with pytest.raises(InvalidInputError, match="port"):
         SerialLink("")
 
 

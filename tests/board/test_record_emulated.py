@@ -7,8 +7,7 @@ from book.chapter_3.regulators import regulator
 from book.chapter_4.controllers import controller
 from book.chapter_6.controllers import gripper_controller, own_model, target_angles
 from book.companion.simulated_logs import STEP
-from softgrip.board.commands import HUNG_AFTER
-from softgrip.board.driver import Rig
+from softgrip.board.driver import HUNG_AFTER, Board
 from softgrip.board.errors import CommandRefusedError
 from softgrip.control.rig_controller import Tracking
 from softgrip.gripper.internal_model import PERIOD
@@ -27,15 +26,15 @@ END_NOISE = 2 * DEG / np.sqrt(40) * 4
 
 
 def finger_rig():
-    from softgrip.board.emulated.emulated_rig import open_rig
+    from softgrip.board.emulated.link import emulated_finger
 
-    return open_rig()
+    return emulated_finger()
 
 
 def gripper_rig():
-    from softgrip.board.emulated.emulated_rig import EmulatedRig, gripper
+    from softgrip.board.emulated.link import EmulatedFingers, gripper
 
-    return Rig(EmulatedRig(gripper()), fingers=2, period=PERIOD, pump=printed_gripper().pump)
+    return Board(EmulatedFingers(gripper()), fingers=2, period=PERIOD, pump=printed_gripper().pump)
 
 
 @pytest.fixture
@@ -47,7 +46,7 @@ def test_chapter_4_pid(path):
     with finger_rig() as rig:
         rig.home()
         record(rig, Tracking(controller("full"), STEP), 6.0, path, reference=STEP)
-        assert rig.lost == 0
+        assert rig.session.lost == 0
     log = read_log(path)
     # 5 % of the step, within which this PID rests by then, and the sensor's noise.
     assert log["angle"][-40:].mean() == pytest.approx(STEP, abs=0.05 * STEP + END_NOISE)
@@ -82,8 +81,8 @@ def test_what_the_board_counts_is_what_the_pump_does():
         for _ in range(40):
             rig.advance(10.0)
         rig.stop()
-        told = rig.line.scale.travel_in(rig.telemetry.position)
-        plunger = float(rig.line.session.link.plant.truth.plunger[0])
+        told = rig.scale.travel_in(rig.telemetry.position)
+        plunger = float(rig.session.link.plant.truth.plunger[0])
         # 1 s of 10 rad/s; the stop takes a little more.
         assert told == pytest.approx(10 / (2 * np.pi) * 8e-3, rel=0.05)
         assert plunger == pytest.approx(told, abs=2e-5)  # two steps
@@ -99,16 +98,16 @@ def test_a_host_that_hangs_stops_the_motor():
     with finger_rig() as rig:
         rig.home()
         rig.advance(5.0)
-        board = rig.line.session.link.board
+        board = rig.session.link.board
         begin = board.time
-        rig.line.session.wait(lambda: board.time > begin + HUNG_AFTER + 1.0, 9.0, "time")
+        rig.session.wait(lambda: board.time > begin + HUNG_AFTER + 1.0, 9.0, "time")
         assert board.edges()[0][-1] - begin < HUNG_AFTER + 0.025 + 0.05 + 0.21
 
 
 def test_firmware_that_hangs_is_reset_and_the_run_ends_at_rest(path):
     with finger_rig() as rig:
         rig.home()
-        board, count = rig.line.session.link.board, 0
+        board, count = rig.session.link.board, 0
 
         class Hangs:
             def update(self, measured):
@@ -129,9 +128,9 @@ def test_firmware_that_hangs_is_reset_and_the_run_ends_at_rest(path):
 
 def test_homing_that_is_broken_off_stops_the_motor():
     with finger_rig() as rig:
-        board = rig.line.session.link.board
+        board = rig.session.link.board
         position = board.position
-        read, count = rig.line.session.link.read, 0
+        read, count = rig.session.link.read, 0
 
         def interrupted(timeout):
             nonlocal count
@@ -140,10 +139,10 @@ def test_homing_that_is_broken_off_stops_the_motor():
                 raise KeyboardInterrupt
             return read(timeout)
 
-        rig.line.session.link.read = interrupted
+        rig.session.link.read = interrupted
         with pytest.raises(KeyboardInterrupt):
             rig.home()
-        rig.line.session.link.read = read
+        rig.session.link.read = read
         rig.stop()
         place = board.position
         rig.advance(0.0)

@@ -9,7 +9,7 @@ from book.chapter_2.forces import calibrated, hour_errors
 from book.chapter_4.identified_model import identify_capacity, identify_finger
 from book.companion.show import show
 from book.live.acceptance import bands_table
-from softgrip.board.driver import Rig
+from softgrip.board.driver import Board
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.logs.fingers import read_runs
 from softgrip.logs.pushes import compare
@@ -150,7 +150,7 @@ def test_check_names_what_is_missing(path, stub, capsys):
 
 
 def test_a_drivers_log_with_lost_telemetry_names_the_place(path, stub):
-    with Rig(stub) as rig:
+    with Board(stub) as rig:
         rig.home()
         advance, count = rig.advance, [0]
 

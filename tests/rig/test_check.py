@@ -2,7 +2,7 @@
 
 import pytest
 
-from softgrip.board.driver import Rig
+from softgrip.board.driver import Board
 from softgrip.board.protocol import Flag
 from softgrip.provenance import data_folder
 from softgrip.rig.__main__ import main
@@ -13,7 +13,7 @@ from tests.board.stub_board import StubBoard
 
 def checked(board, **options):
     lines = []
-    code = run_check(lambda: Rig(board, **options), lines.append)
+    code = run_check(lambda: Board(board, **options), lines.append)
     return code, "\n".join(lines)
 
 

@@ -10,8 +10,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import pytest
 
-from softgrip.board.driver import Rig
+from softgrip.board.driver import Board
 from softgrip.board.emulated.build import missing
+from softgrip.board.emulated.link import emulated_finger
 from softgrip.board.errors import CommandRefusedError
 from softgrip.board.protocol import Flag
 from softgrip.errors import InvalidInputError
@@ -44,20 +45,18 @@ class BackEnd:
 
 
 def stub_rig():
-    return Rig(StubBoard())
+    return Board(StubBoard())
 
 
 def emulated_rig():
     if missing():
         pytest.skip(f"the emulated board needs: apt install {missing()}")
-    from softgrip.board.emulated.emulated_rig import open_rig
-
-    return open_rig()
+    return emulated_finger()
 
 
-def lowered(open_rig):
+def lowered(emulated_finger):
     def open_low():
-        rig = open_rig()
+        rig = emulated_finger()
         rig.set_limits(replace(rig.info.limits, pressure=LOW))
         return rig
 
@@ -148,7 +147,7 @@ def test_measuring_takes_the_last_sample(homed):
 
 
 def test_a_push_before_homing_is_refused(rig):
-    if isinstance(rig, Rig) and rig.telemetry.flags & Flag.HOMED:
+    if isinstance(rig, Board) and rig.telemetry.flags & Flag.HOMED:
         pytest.skip("this port does not reset its board, which was homed before")
     with pytest.raises(CommandRefusedError, match="hom"):
         rig.advance(SPEED)

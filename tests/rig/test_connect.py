@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from softgrip.board.calibration import nominal, save
-from softgrip.board.driver import Rig
+from softgrip.board.driver import Board
 from softgrip.board.errors import NoBoardError, PortUnavailableError
 from softgrip.board.find import candidates, find_board
 from softgrip.errors import UnknownNameError
@@ -36,7 +36,7 @@ def test_a_url_and_a_calibration_file(socket_board, tmp_path):
     path = tmp_path / "lines.csv"
     save(nominal(1), path, "a data sheet")
     with connect(socket_board.url, calibration=path, period=0.05) as rig:
-        assert isinstance(rig, Rig)
+        assert isinstance(rig, Board)
         assert rig.header().calibration == "lines.csv"
         assert rig.header().firmware.endswith("build 00c0ffee")
 
@@ -67,7 +67,7 @@ def test_without_a_name_the_found_board_is_said(monkeypatch, socket_board, capsy
     ports = [usb(socket_board.url)]
     monkeypatch.setattr("softgrip.board.find._greeted", lambda port: ("build 00c0ffee", True))
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: ports)
-    monkeypatch.setattr("softgrip.board.line.usb_serial", lambda port: "7573")
+    monkeypatch.setattr("softgrip.board.driver.usb_serial", lambda port: "7573")
     with connect() as rig:
         assert rig.header().board == "7573"
     assert f"found {socket_board.url}" in capsys.readouterr().err

@@ -6,8 +6,8 @@ from threading import Event
 import pytest
 
 from book.live.experiments import experiments
-from softgrip.board.driver import Rig
-from softgrip.board.emulated.emulated_rig import EmulatedRig, finger
+from softgrip.board.driver import Board
+from softgrip.board.emulated.link import EmulatedFingers, finger
 from softgrip.board.emulated.terminal import Terminal
 from softgrip.board.errors import CommandRefusedError, ConnectionLostError
 from softgrip.board.protocol import Flag
@@ -118,7 +118,7 @@ def test_the_stop_is_heard_while_a_simulated_run_is_on(path):
 
 def test_a_board_hears_the_stop_at_once(pty_board, path):
     port, board = pty_board
-    with Rig(port, emulated=True) as rig:
+    with Board(port, emulated=True) as rig:
         assert listens(rig)
         run = run_of(rig, path)
         update, within, go_on = run.update, Event(), Event()
@@ -143,7 +143,7 @@ def test_a_board_hears_the_stop_at_once(pty_board, path):
 
 
 def test_a_stop_that_was_not_heard_is_said_again_when_the_line_is_back(socket_board, path):
-    with Rig(socket_board.url, emulated=True) as rig:
+    with Board(socket_board.url, emulated=True) as rig:
         run = run_of(rig, path)
         run.start()
         until(lambda: len(run.samples) > 10)
@@ -160,8 +160,8 @@ def test_a_stop_that_was_not_heard_is_said_again_when_the_line_is_back(socket_bo
 
 @needs_emulator
 def test_the_firmware_hears_the_stop_while_it_homes(path):
-    emulated = EmulatedRig(finger(position=3000))  # 7.5 s from its switch
-    with Terminal(emulated) as port, Rig(port, emulated=True) as rig:
+    emulated = EmulatedFingers(finger(position=3000))  # 7.5 s from its switch
+    with Terminal(emulated) as port, Board(port, emulated=True) as rig:
         run = run_of(rig, path)
         run.start()
         until(lambda: rig.telemetry.flags & Flag.HOMING and emulated.board.position < 2990)
@@ -178,7 +178,7 @@ def test_the_firmware_hears_the_stop_while_it_homes(path):
 
 
 def test_a_line_in_virtual_time_is_told_between_periods(stub, path):
-    with Rig(stub) as rig:
+    with Board(stub) as rig:
         assert not listens(rig)
         run = run_of(rig, path)
         run.emergency_stop()

@@ -14,7 +14,7 @@ from book.chapter_3.regulators import regulator
 from book.chapter_4.controllers import controller
 from book.chapter_6.controllers import gripper_controller, own_model, target_angles
 from book.companion.simulated_logs import STEP
-from softgrip.board.driver import Rig
+from softgrip.board.driver import Board
 from softgrip.board.errors import CommandRefusedError, ConnectionLostError
 from softgrip.board.protocol import Flag
 from softgrip.control.rig_controller import Tracking
@@ -38,7 +38,7 @@ def path(tmp_path):
 
 @pytest.fixture
 def rig(stub):
-    with Rig(stub) as opened:
+    with Board(stub) as opened:
         opened.home()
         yield opened
 
@@ -191,7 +191,7 @@ def test_a_real_line_pulled_and_put_back(socket_board, path):
         socket_board.pull()
         threading.Timer(0.4, socket_board.plug).start()
 
-    with Rig(socket_board.url, emulated=True) as rig:
+    with Board(socket_board.url, emulated=True) as rig:
         rig.home()
         made = record(rig, After(10, pull), 2.0, path)
     log = read_log(path)

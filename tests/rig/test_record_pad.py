@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from softgrip.board.driver import Rig
+from softgrip.board.driver import Board
 from softgrip.board.emulated.board import EmulatedBoard
 from softgrip.board.emulated.link import EmulatedLink
 from softgrip.board.protocol import TELEMETRY_PERIOD, SetUp
@@ -38,7 +38,7 @@ def board():
 @needs_emulator
 def test_log_holds_the_nine_channels_at_40_hz(board, tmp_path):
     path = tmp_path / "pad.csv"
-    with Rig(EmulatedLink(board), emulated=True) as rig:
+    with Board(EmulatedLink(board), emulated=True) as rig:
         made = record_pad(rig, 1.0, path, shows="nothing")
         with pytest.raises(InvalidInputError, match="does not exist"):
             record_pad(rig, 1.0, path)
@@ -55,7 +55,7 @@ def test_log_holds_the_nine_channels_at_40_hz(board, tmp_path):
 @needs_emulator
 def test_check_looks_at_the_pad_and_finds_a_dead_channel(board):
     board.set_count(3, 0)
-    with Rig(EmulatedLink(board), emulated=True) as rig:
+    with Board(EmulatedLink(board), emulated=True) as rig:
         found = {one.what: one for one in check(rig)}
     assert found["telemetry"].good
     assert {name for name in PAD_CHANNELS if not found[name].good} == {"element_4"}
@@ -87,7 +87,7 @@ def emulated(board, path):
         for channel, count in enumerate(hand.counts(now[0])):
             board.set_count(channel, int(count))
 
-    with Rig(EmulatedLink(board), emulated=True) as rig:
+    with Board(EmulatedLink(board), emulated=True) as rig:
         record_pad(rig, STEPS, path, say=lambda words: hand.obey(words, now[0]), progress=feel)
     return hand
 

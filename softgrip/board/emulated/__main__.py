@@ -2,11 +2,11 @@
 
 import time
 
-from softgrip.board.emulated.emulated_rig import EmulatedRig
+from softgrip.board.emulated.link import EmulatedFingers
 from softgrip.board.emulated.terminal import Terminal
 
 if __name__ == "__main__":
-    with Terminal(EmulatedRig()) as port:
+    with Terminal(EmulatedFingers()) as port:
         print(f"connect({port!r}, emulated=True) drives a simulated rig; end this with Ctrl-C")
         try:
             while True:

@@ -5,8 +5,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from softgrip.board.emulated import build
-from softgrip.board.emulated.library import built, library
+from softgrip.board.emulated.build import firmware, library, symbol
 from softgrip.board.protocol import CHANNELS, SetUp
 
 CLOCK = 16_000_000
@@ -41,7 +40,7 @@ class EmulatedBoard:
     def __init__(
         self, set_up: SetUp = SetUp.GRIPPER, *, valve: bool = False, position: int = 200
     ) -> None:
-        self.elf = built(set_up, valve=valve)
+        self.elf = firmware(set_up, valve=valve)
         self._c = library()
         self._volts = [0.5 if k == PRESSURE else 0.0 for k in range(len(CHANNELS))]
         self._switch, self._before = Switch.WORKS, 0
@@ -149,7 +148,7 @@ class EmulatedBoard:
 
     def hang(self, *, interrupts: bool) -> None:
         """Let the program run in circles from now on, its interrupts served or not."""
-        loop = build.symbol(self.elf, "__stop_program")
+        loop = symbol(self.elf, "__stop_program")
         self._c.board_hang(self._board, loop, int(interrupts))
 
     def power_cycle(self) -> None:

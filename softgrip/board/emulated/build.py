@@ -1,9 +1,11 @@
-"""Builds what the emulator needs: the firmware by avr-gcc, and the harness by gcc."""
+"""What the emulator runs, built once a process: the firmware by avr-gcc, the harness by gcc."""
 
+import ctypes
 import shutil
 import subprocess
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from softgrip.board.firmware.header import SKETCH
 from softgrip.board.protocol import SetUp
@@ -50,31 +52,47 @@ def _run(*command: object) -> str:
 
 
 @cache
-def core(folder: Path) -> Path:
+def _folder() -> TemporaryDirectory[str]:
+    return TemporaryDirectory(prefix="softgrip-emulator-")
+
+
+def _file(name: str) -> Path:
+    """Return a path in a folder that goes when the process ends."""
+    return Path(_folder().name) / name
+
+
+@cache
+def _core() -> Path:
     """Build the part of the Arduino core that the sketch starts from."""
     objects = []
     for name in ("main.cpp", "hooks.c", "wiring.c", "wiring_digital.c"):
         source = CORE / "cores" / "arduino" / name
-        objects.append(folder / f"core_{name}.o")
+        objects.append(_file(f"core_{name}.o"))
         compiler = "avr-g++" if name.endswith("cpp") else "avr-gcc"
         _run(compiler, *CHIP, *INCLUDES, "-w", "-c", source, "-o", objects[-1])
-    archive = folder / "core.a"
+    archive = _file("core.a")
     _run("avr-ar", "rcs", archive, *objects)
     return archive
 
 
 @cache
-def firmware(folder: Path, set_up: SetUp = SetUp.GRIPPER, *, valve: bool = False) -> Path:
-    """Build the firmware as the Arduino IDE would, and return its ELF file."""
+def firmware(set_up: SetUp = SetUp.GRIPPER, *, valve: bool = False) -> Path:
+    """Build the firmware as the Arduino IDE would, and return its ELF file.
+
+    Raises
+    ------
+    EmulatorUnavailableError
+        If what builds or runs it is not installed.
+    """
     if packages := missing():
         raise EmulatorUnavailableError(packages)
-    elf = folder / f"softgrip_rig_{set_up.name.lower()}{'_valve' if valve else ''}.elf"
+    elf = _file(f"softgrip_rig_{set_up.name.lower()}{'_valve' if valve else ''}.elf")
     _run(
         *("avr-g++", *CHIP, *INCLUDES, "-std=gnu++11", "-Wall", "-Wextra", "-Werror"),
         *("-fno-exceptions", "-fno-threadsafe-statics", "-flto", "-Wl,--gc-sections"),
         *(f"-DSET_UP={int(set_up)}", f"-DVALVE={int(valve)}", "-include", "Arduino.h"),
         *("-x", "c++", SKETCH / "softgrip_rig.ino", *sorted(SKETCH.glob("*.cpp"))),
-        *("-x", "none", core(folder), "-lm", "-o", elf),
+        *("-x", "none", _core(), "-lm", "-o", elf),
     )
     return elf
 
@@ -95,11 +113,36 @@ def symbol(elf: Path, name: str) -> int:
 
 
 @cache
-def harness(folder: Path) -> Path:
-    """Build the harness as a shared library."""
-    library = folder / "harness.so"
+def library() -> ctypes.CDLL:
+    """Build the harness and return its functions, each with the prefix ``board_``."""
+    built = _file("harness.so")
     _run(
         *("gcc", "-O2", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", HARNESS),
-        *("-I/usr/include/simavr", "-lsimavr", "-lelf", "-o", library),
+        *("-I/usr/include/simavr", "-lsimavr", "-lelf", "-o", built),
     )
-    return library
+    found = ctypes.CDLL(str(built))
+    cycles, board = ctypes.c_uint64, ctypes.c_void_p
+    doubles, numbers = ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_uint64)
+    kinds = {
+        "new": (board, ctypes.c_char_p),
+        "free": (None, board),
+        "run": (ctypes.c_int, board, cycles),
+        "write": (None, board, ctypes.c_char_p, ctypes.c_size_t),
+        "read": (ctypes.c_size_t, board, ctypes.c_char_p, doubles, ctypes.c_size_t),
+        "pending": (ctypes.c_size_t, board),
+        "due": (cycles, board),
+        "cycle": (cycles, board),
+        "edges": (ctypes.c_size_t, board),
+        "edge_times": (numbers, board),
+        "edge_ways": (ctypes.POINTER(ctypes.c_int8), board),
+        "valve": (ctypes.c_int, board),
+        "position": (ctypes.c_int32, board),
+        "place": (None, board, ctypes.c_int32),
+        "switch": (None, board, ctypes.c_int),
+        "volts": (None, board, ctypes.c_int, ctypes.c_int),
+        "hang": (None, board, ctypes.c_uint32, ctypes.c_int),
+    }
+    for name, (result, *arguments) in kinds.items():
+        function = getattr(found, f"board_{name}")
+        function.restype, function.argtypes = result, arguments
+    return found

@@ -1,18 +1,38 @@
-"""The emulated board as a `softgrip.board.link.Link`: waiting is what lets its time pass."""
+"""The emulated board as a `softgrip.board.link.Link`, alone or with simulated physics at its pins.
 
-from softgrip.board.emulated.board import EmulatedBoard
+Waiting is what lets its time pass.
+"""
+
+from dataclasses import replace
+
+from softgrip.board.driver import FLEX, PRESSURE, Board
+from softgrip.board.emulated.board import CLOCK, EmulatedBoard
 from softgrip.board.errors import ConnectionLostError
+from softgrip.gripper.internal_model import PERIOD as LOOP_PERIOD
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.gripper_parameters import printed_gripper
+from softgrip.simulator.parameters import PumpParameters
+from softgrip.simulator.simulation import Simulation
+
+PERIOD = 0.005
+"""At which board and physics tell each other of steps and volts, s."""
+CYCLE = 1 / CLOCK
+"""Time goes on by whole cycles: what is nearer than one is now."""
+STEPS = 800
+"""A revolution, as in the firmware's config.h; a test holds it against what the board says."""
 
 
 class EmulatedLink:
     """A line to an emulated board."""
+
+    name, real_time = "emulated board", False
 
     def __init__(self, board: EmulatedBoard) -> None:
         self.board, self.closed = board, False
 
     def _check(self) -> None:
         if self.closed:
-            raise ConnectionLostError("emulated board", "the link was closed")
+            raise ConnectionLostError(self.name, "the link was closed")
 
     def write(self, data: bytes) -> None:
         """Send bytes."""
@@ -31,3 +51,80 @@ class EmulatedLink:
     def close(self) -> None:
         """Give the line up; the board goes on when its time does."""
         self.closed = True
+
+
+def stiff(pump: PumpParameters) -> PumpParameters:
+    """Return a pump whose motor is where it is told to be: the board's ramps are the motor's."""
+    return replace(pump, speed_limit=1e4, acceleration_limit=1e9)
+
+
+def finger(seed: int = 0, *, position: int = 200) -> Simulation:
+    """Return the simulated rig of Design 1, its plunger so many steps from home."""
+    parameters = design_1()
+    pump = stiff(parameters.pump)
+    plunger = position * pump.lead / STEPS
+    parameters = replace(parameters, pump=pump)
+    return Simulation(parameters, seed=seed, period=PERIOD, plunger=plunger)
+
+
+def gripper(seed: int = 0) -> Simulation:
+    """Return the simulated gripper of two fingers, its plunger drawn out."""
+    parameters = printed_gripper()
+    parameters = replace(parameters, pump=stiff(parameters.pump))
+    return Simulation(parameters, seed=seed, period=PERIOD)
+
+
+class EmulatedFingers(EmulatedLink):
+    """A `Link` to an emulated board that drives simulated fingers; all of it is simulated.
+
+    Parameters
+    ----------
+    plant
+        Physics of one run, of `finger` or `gripper`; None for `finger`.
+    """
+
+    def __init__(self, plant: Simulation | None = None) -> None:
+        self.plant = finger() if plant is None else plant
+        step = self.plant.parameters.pump.lead / STEPS
+        super().__init__(EmulatedBoard(position=round(float(self.plant.truth.plunger[0]) / step)))
+        self._told = self.board.time
+
+    def _exchange(self) -> None:
+        """Move the plunger to where the motor is by now, and put the sensors' volts on the pins."""
+        pump = self.plant.parameters.pump
+        place = max(self.board.position, 0) * pump.lead / STEPS
+        away = place - float(self.plant.truth.plunger[0])
+        found = self.plant.advance(away / pump.advance / PERIOD)
+        self.board.set_count(PRESSURE, int(found.pressure_counts[0]))
+        for k, count in enumerate(found.angle_counts[:2, 0]):
+            self.board.set_count(FLEX + k, int(count))
+        self._told += PERIOD
+
+    def advance(self, seconds: float) -> None:
+        """Let virtual time pass."""
+        self._until(self.board.time + seconds)
+
+    def _until(self, end: float) -> None:
+        while self.board.time < end - CYCLE:
+            self.board.advance(min(end, self._told + PERIOD) - self.board.time)
+            if self.board.time >= self._told + PERIOD - CYCLE:
+                self._exchange()
+
+    def read(self, timeout: float) -> bytes:
+        """Return what has come; let at most `timeout` s of virtual time pass for a first byte."""
+        self._check()
+        end = self.board.time + timeout
+        while not (found := self.board.read(0.0)) and self.board.time < end - CYCLE:
+            self._until(min(end, self.board.time + PERIOD / 10))
+        return found
+
+
+def emulated_finger(*, seed: int = 0) -> Board:
+    """Return a board that drives the finger of Chapters 3 to 5, sampled each 25 ms."""
+    return Board(EmulatedFingers(finger(seed)))
+
+
+def emulated_gripper(*, seed: int = 0) -> Board:
+    """Return a board that drives the two fingers of Section 6.4, sampled each 100 ms."""
+    pump = printed_gripper().pump
+    return Board(EmulatedFingers(gripper(seed)), fingers=2, period=LOOP_PERIOD, pump=pump)

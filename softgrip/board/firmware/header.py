@@ -6,7 +6,7 @@ from zlib import crc32
 
 from softgrip.board import protocol
 from softgrip.board.framing import LARGEST
-from softgrip.board.message import Message
+from softgrip.board.protocol import Message
 
 SKETCH = Path(__file__).parent / "softgrip_rig"
 HEADER = SKETCH / "protocol.h"

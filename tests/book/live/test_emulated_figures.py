@@ -7,7 +7,7 @@ from book.chapter_4.controllers import controller
 from book.chapter_6.controllers import gripper_controller, own_model, target_angles
 from book.companion.exhibit import exhibit
 from book.companion.simulated_logs import STEP
-from softgrip.board.driver import Rig
+from softgrip.board.driver import Board
 from softgrip.control.rig_controller import Tracking
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.logs.fingers import fingers_of
@@ -45,11 +45,11 @@ def drawn(title, logs):
     ],
 )
 def test_a_step_of_the_finger(title, name, kept_logs, tmp_path):
-    from softgrip.board.emulated.emulated_rig import open_rig
+    from softgrip.board.emulated.link import emulated_finger
 
     path, (other, own) = tmp_path / "step.csv", map(kept, kept_logs)
     duration = float(read_log(own)["time"][-1])
-    with open_rig() as rig:
+    with emulated_finger() as rig:
         rig.home()
         record(rig, Tracking(controller(name), STEP), duration, path, reference=STEP)
     # Two runs of one finger: the sensor's noise, 2 deg, in both, and a start that the board's
@@ -61,12 +61,12 @@ def test_a_step_of_the_finger(title, name, kept_logs, tmp_path):
 
 
 def test_two_fingers_on_one_pump(tmp_path):
-    from softgrip.board.emulated.emulated_rig import EmulatedRig, gripper
+    from softgrip.board.emulated.link import EmulatedFingers, gripper
 
     path, targets = tmp_path / "slow.csv", target_angles(own_model())
     pump = printed_gripper().pump
     duration = float(read_log(kept("gripper-slow-1"))["time"][-1])
-    with Rig(EmulatedRig(gripper()), fingers=2, period=PERIOD, pump=pump) as rig:
+    with Board(EmulatedFingers(gripper()), fingers=2, period=PERIOD, pump=pump) as rig:
         rig.home()
         record(rig, gripper_controller("H 2/s"), duration, path, reference=targets)
     # From run to run the fingers differ too.

@@ -14,7 +14,7 @@ from book.live.acceptance import bands_table
 from book.live.emulated import emulated_table, measured_firmware
 from book.live.finished import FinishedRun
 from book.live.panel import ControlPanel
-from softgrip.board.commands import HUNG_AFTER
+from softgrip.board.driver import HUNG_AFTER
 from softgrip.board.emulated.build import CORE
 from softgrip.board.framing import Frame, encode
 from softgrip.board.protocol import CHANNELS, MESSAGES, Flag
@@ -38,7 +38,7 @@ def no_port(monkeypatch):
     monkeypatch.setattr(serial, "serial_for_url", refuse)
     monkeypatch.setattr(serial.Serial, "open", refuse)
     monkeypatch.setattr("serial.tools.list_ports.comports", refuse)
-    monkeypatch.setattr("softgrip.rig.connect.Rig", refuse)
+    monkeypatch.setattr("softgrip.rig.connect.Board", refuse)
 
 
 def cells(root, page):
@@ -127,12 +127,12 @@ def test_other_pins_are_refused(tmp_path):
 
 @needs_emulator
 def test_limits_of_the_page_are_those_that_the_firmware_tells():
-    from softgrip.board.emulated.emulated_rig import open_rig
+    from softgrip.board.emulated.link import emulated_finger
 
-    with open_rig() as rig:
+    with emulated_finger() as rig:
         assert rig.info.limits == rig_firmware.limits("AT_START")
         assert rig.info.bounds == rig_firmware.limits("HARD")
-        assert rig.line.scale.steps == rig_firmware.constant("STEPS_PER_REVOLUTION")
+        assert rig.scale.steps == rig_firmware.constant("STEPS_PER_REVOLUTION")
 
 
 def test_the_live_page_tells_the_boards_silence(root):

@@ -10,7 +10,7 @@ from book.live.experiments import experiments
 from book.live.finished import FinishedRun
 from book.live.panel import ControlPanel, control_panel
 from book.live.plot import LivePlot
-from softgrip.board.driver import Rig
+from softgrip.board.driver import Board
 from softgrip.board.protocol import Flag
 from softgrip.errors import InvalidInputError
 from softgrip.logs.reader import read_log
@@ -104,7 +104,7 @@ def test_a_finished_run_leaves_its_log_and_picture(tmp_path):
 
 def test_the_button_stops_a_board(pty_board, tmp_path):
     port, board = pty_board
-    panel = ControlPanel(Rig(port, emulated=True), tmp_path, rest=0.0)
+    panel = ControlPanel(Board(port, emulated=True), tmp_path, rest=0.0)
     begin(panel)
     panel.stop.click()
     assert board.flags & Flag.ESTOPPED
@@ -116,7 +116,7 @@ def test_the_button_stops_a_board(pty_board, tmp_path):
 
 def test_to_close_ends_a_run_for_good(pty_board, tmp_path):
     port, board = pty_board
-    panel = ControlPanel(Rig(port, emulated=True), tmp_path, rest=0.0)
+    panel = ControlPanel(Board(port, emulated=True), tmp_path, rest=0.0)
     begin(panel)
     panel.close()
     assert not panel.run.running
@@ -144,7 +144,7 @@ def test_the_book_shows_a_finished_simulated_run(tmp_path, monkeypatch):
 def test_the_book_moves_no_board(stub, tmp_path, monkeypatch):
     monkeypatch.setenv("SOFTGRIP_BOOK", "static")
     replay = connect(f"replay:{data_folder() / 'simulated' / 'staircase.csv'}")
-    with Rig(stub) as board:
+    with Board(stub) as board:
         for rig in (board, replay):
             with pytest.raises(InvalidInputError, match="expected the simulated rig"):
                 control_panel(rig, tmp_path)
