@@ -7,7 +7,7 @@ from typing import Protocol
 
 from softgrip.arrays import check_positive
 from softgrip.board.protocol import TELEMETRY_PERIOD
-from softgrip.board.telemetry import Telemetry
+from softgrip.board.session import Telemetry
 from softgrip.logs.contacts import PRESS, REST, WEIGHT
 from softgrip.logs.queued_writer import RunLog, plain
 from softgrip.logs.schema import PAD_CHANNELS, LogHeader

@@ -1,7 +1,7 @@
 """The simulated pad at the end of an imagined line: heard as that of a board is."""
 
 from softgrip.board.protocol import CHANNELS, TELEMETRY_PERIOD, Flag
-from softgrip.board.telemetry import Telemetry
+from softgrip.board.session import Telemetry
 from softgrip.logs.schema import LogHeader
 from softgrip.provenance import Provenance
 from softgrip.simulator.chance import SEED
