@@ -26,7 +26,7 @@ def controller(name: Name, stage: str = "tuned") -> Controller:
     name
         Which.
     stage
-        Of the tuning; see `numbers.pid_gains`.
+        Of the tuning; see `pid_gains`.
 
     Raises
     ------
