@@ -20,6 +20,7 @@ from book.chapter_6.results import (
     recovery,
 )
 from book.companion.simulated_logs import make
+from softgrip.control.state_feedback import SPEED_DIGITS
 from softgrip.dynamics.second_order import SecondOrder, response
 from softgrip.errors import DataFileError
 from softgrip.gripper.plant import FingerDynamics
@@ -46,10 +47,19 @@ from softgrip.units import DEG, REV
 
 
 @pytest.mark.parametrize("name", [n for n in LOGS if n.endswith(("-1", "-7"))])
-def test_log_is_made_again_bit_for_bit(name, tmp_path):
-    kept = data_file(f"simulated/{name}.csv")
-    assert make(name, tmp_path).read_bytes() == kept.path.read_bytes()
-    assert kept.path.stat().st_size < 20_000
+def test_log_is_made_again_to_the_last_digit_of_a_command(name, tmp_path):
+    kept = data_file(f"simulated/{name}.csv").path
+    made = make(name, tmp_path)
+    assert make(name, tmp_path / "again").read_bytes() == made.read_bytes()
+    found, wanted = read_log(made), read_log(kept)
+    assert (found.header, found.events) == (wanted.header, wanted.events)
+    assert list(found.columns) == list(wanted.columns)
+    for column in wanted.columns:
+        # The controller's matrices are sums of LAPACK, in another order in another numpy: a command
+        # that lies between two roundings may take the other one. What is measured is the same.
+        away = 1.001 * 10**-SPEED_DIGITS if column == "command" else 0.0
+        np.testing.assert_allclose(found[column], wanted[column], rtol=0, atol=away)
+    assert kept.stat().st_size < 20_000
 
 
 def test_logs_hold_both_fingers_and_say_when_they_were_pushed():
