@@ -19,8 +19,13 @@ LATE = 1.5
 """Periods from a row to the next, above which rows are missing between them. A clock may be uneven
 by half a period: what is late by less is late, not lost."""
 PERIOD_WITHIN = 0.02
-"""Of the header's period: how far the median interval may be from it. A resonator is good to 0.5 %;
-a log that leaves out every second row is off by 100 %."""
+"""Of the header's period: how far the mean interval without gaps may be from it. A resonator is
+good to 0.5 %."""
+TICK = 1e-3
+"""s: a board's clock counts whole milliseconds."""
+LEAST_WHOLE = 0.1
+"""Share of the intervals that must be no gaps. A host that is too busy may leave out more than half
+of the rows; but where there is a gap after every row, it is the header that is wrong."""
 ROUNDING = 1e-6
 """Of a period: the times are decimals, whose difference is not exactly the period."""
 MOST_NAMED = 6
@@ -90,23 +95,27 @@ def find_gaps(time: ArrayLike, period: float) -> tuple[Gap, ...]:
 
 
 def check_period(path: Path | str, header: LogHeader, time: Floats) -> None:
-    """Refuse rows whose median interval is not the period of their header.
+    """Refuse rows that are another time apart than their header says.
 
     Raises
     ------
     DataFileError
-        If the two are apart by more than `PERIOD_WITHIN`.
+        If the mean interval without gaps is off by more than `PERIOD_WITHIN` and the ticks of the
+        clock, or fewer intervals than `LEAST_WHOLE` are without gaps.
     """
     if not header.clocked or time.size < 2:
         return
-    # Of an even number of intervals the lower one: the other may be a gap.
-    middle = float(np.sort(np.diff(time))[(time.size - 2) // 2])
-    if abs(middle / header.period - 1) > PERIOD_WITHIN:
-        raise DataFileError(
-            path,
-            expected=f"rows {header.period:g} s apart, the period of the header",
-            got=f"a median of {middle:g} s",
-        )
+    found = np.diff(time)
+    whole = found[found <= LATE * header.period]
+    if whole.size >= LEAST_WHOLE * found.size:
+        most = PERIOD_WITHIN * header.period + TICK / np.sqrt(whole.size)
+        if abs(float(whole.mean()) - header.period) <= most:
+            return
+    raise DataFileError(
+        path,
+        expected=f"rows {header.period:g} s apart, the period of the header",
+        got=f"a median of {float(np.median(found)):g} s",
+    )
 
 
 def gaps_of(log: Log) -> tuple[Gap, ...]:

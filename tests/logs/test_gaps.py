@@ -213,6 +213,20 @@ def test_a_log_without_every_second_row_is_refused(path):
         read_log(path)
 
 
+def test_a_busy_host_may_leave_out_most_rows(path):
+    # Two of three, but not in step: some rows are a period apart, which confirms the header.
+    kept = np.random.default_rng(2).choice(np.arange(1, 272), 90, replace=False)
+    without(path, PUSH, set(range(1, 272)) - set(kept.tolist()))
+    assert "rows missing" in read_log(path).repairs[0]
+    assert identify_capacity(path) == pytest.approx(identify_capacity(PUSH), rel=0.05)
+
+
+def test_a_clock_of_whole_milliseconds_is_even_enough(path):
+    retimed(path, PUSH, lambda t: 1e-3 * np.floor(1e3 * 1.003 * t))
+    assert read_log(path).repairs == ()
+    assert identify_capacity(path) == pytest.approx(1.003 * identify_capacity(PUSH), rel=2e-3)
+
+
 @pytest.mark.parametrize(
     "time",
     [
