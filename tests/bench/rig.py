@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from softgrip.dynamics.chunks import chunks
+from softgrip.arrays import chunks
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.simulation import Simulation
 from tests.bench.entry import Entry, interleaved, spread
