@@ -106,3 +106,17 @@ def test_a_printed_number_comes_out_of_itself(number):
 @given(st.floats(-1e4, 1e4), st.integers(0, 6))
 def test_a_value_comes_out_of_its_own_rounding(x, places):
     assert comes_out(claim(printed=f"{x:.{places}f}"), x)
+
+
+def test_ledger_of_a_place_judges_its_claims_and_no_others(monkeypatch):
+    asked = []
+    monkeypatch.setattr(module, "judge", asked.append)
+    module.ledger(5, ["Table 5.2"])
+    assert {claim.where for claim in asked} == {"Table 5.2"}
+    assert len(asked) == sum(claim.where == "Table 5.2" for claim in module.read_claims(5))
+
+
+def test_one_claim_is_judged_by_its_id_and_key(monkeypatch):
+    monkeypatch.setattr(module, "_function", FIND)
+    assert module.verdict_of(5, "table-5.2-true-{key}", "Dragon Skin 20") is Verdict.DIFFERS
+    assert module.verdict_of(5, "table-5.2-true-{key}", "Dragon Skin FX Pro") is Verdict.REPRODUCED
