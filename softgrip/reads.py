@@ -65,7 +65,7 @@ def remembered(function: Callable[Arguments, Result]) -> Callable[Arguments, Res
 
     @wraps(function)
     def again(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Result:
-        result, files = first(*args, **kwargs)  # type: ignore[arg-type]  # says its own type
+        result, files = first(*args, **kwargs)  # type: ignore[arg-type]  # hashable, as for any cache
         _note(files)
         return result
 
