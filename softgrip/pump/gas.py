@@ -121,7 +121,7 @@ def capacity_growth(
 
 
 def charge_pressure(charge: Any, volume: Value, compliance: float, rest_pressure: float) -> Value:
-    """Return the pressure of a charge of gas in a vessel that gives way, Eq. (4.3), unchecked.
+    """Return the pressure of a charge of gas in a vessel that gives way, unchecked.
 
     It solves ``P (V + K (P - P_0)) = n R T`` for P.
 

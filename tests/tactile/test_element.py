@@ -27,6 +27,7 @@ TAPERED = ("hemisphere", "pyramid")
 @pytest.mark.parametrize("shape", TAPERED)
 @given(cut=CUTS, width=st.floats(1e-3, 2e-2), height=st.floats(5e-4, 2e-2))
 def test_closed_form_is_the_quadrature(shape, cut, width, height):
+    """Eq. (2.1) integrated by quadrature, slice by slice."""
     element = Element(shape, width, height, cut)
     # Over the part of the height, so that the tolerance is relative to a number near one.
     mean = quad(

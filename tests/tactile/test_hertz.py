@@ -13,7 +13,7 @@ E, NU, R = 0.1e6, 0.49, 3e-3
 
 
 def test_pressure_of_hertz_carries_the_force_and_sinks_by_the_approach():
-    """The elliptic pressure over the contact, integrated anew, gives back force and approach."""
+    """Eq. (2.2): the elliptic pressure, integrated anew, gives back force and approach."""
     force = 0.2
     d = hertz_approach(force, R, E, NU)
     a = np.sqrt(R * d)

@@ -55,6 +55,7 @@ def test_fast_average_is_that_of_forty_digits():
 
 
 def test_three_points_by_hand():
+    """Eq. (2.6) with the kernel of Eq. (2.7), by hand."""
     # Halfway between two points the third adds exp(-9/8) / (2 exp(-1/8)) = 1 / (2 e).
     found = exact_average(np.array([[0.5]]), np.array([[0.0], [1], [2]]), np.array([0.0, 1, 5]), 1)
     expected = (1 + 5 * math.exp(-1)) / (2 + math.exp(-1))

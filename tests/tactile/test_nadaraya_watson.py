@@ -33,6 +33,7 @@ def data(count=69, features=1, seed=0):
 @pytest.mark.filterwarnings("ignore:After 0.17:FutureWarning")  # of its random numbers, unused
 @pytest.mark.parametrize("features", [1, 2])
 def test_statsmodels_says_the_same(features):
+    """Eq. (2.5), the regression, by another library."""
     X, y = data(features=features)
     new = np.random.default_rng(1).random((50, features))
     other = KernelReg(y, X, "c" * features, reg_type="lc", bw=[0.07] * features)
