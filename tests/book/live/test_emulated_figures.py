@@ -1,8 +1,11 @@
 """The chapters' figures from logs of the firmware, emulated, beside those of the simulated rig."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
+from book.chapter_3.regulators import regulator
 from book.chapter_4.controllers import controller
 from book.chapter_6.controllers import gripper_controller, own_model, target_angles
 from book.companion.exhibit import exhibit
@@ -38,20 +41,20 @@ def drawn(title, logs):
 
 
 @pytest.mark.parametrize(
-    ("title", "name", "kept_logs"),
+    ("title", "law", "kept_logs"),
     [
-        ("Figure 4.5", "full", ("pid-actuator", "pid-full")),
-        ("Figure 3.12", "lqr fast", ("lqr-printed", "lqr-fast")),
+        ("Figure 4.5", partial(controller, "full"), ("pid-actuator", "pid-full")),
+        ("Figure 3.12", partial(regulator, "fast"), ("lqr-printed", "lqr-fast")),
     ],
 )
-def test_a_step_of_the_finger(title, name, kept_logs, tmp_path):
+def test_a_step_of_the_finger(title, law, kept_logs, tmp_path):
     from softgrip.board.emulated.link import emulated_finger
 
     path, (other, own) = tmp_path / "step.csv", map(kept, kept_logs)
     duration = float(read_log(own)["time"][-1])
     with emulated_finger() as rig:
         rig.home()
-        record(rig, Tracking(controller(name), STEP), duration, path, reference=STEP)
+        record(rig, Tracking(law(), STEP), duration, path, reference=STEP)
     # Two runs of one finger: the sensor's noise, 2 deg, in both, and a start that the board's
     # acceleration limit and its clock delay by a period or two.
     assert apart(path, own) < 5 * DEG
