@@ -1,4 +1,4 @@
-"""Tables of the protocol page, made from the table that host and firmware share."""
+"""What the pages tell of board and protocol, made from the tables that host and firmware share."""
 
 from enum import IntEnum, IntFlag
 from struct import calcsize
@@ -6,7 +6,7 @@ from struct import calcsize
 import pandas as pd
 
 from book.companion.chips import Markdown
-from softgrip.board.firmware.header import TYPES
+from softgrip.board.firmware.header import README, TYPES
 from softgrip.board.framing import LARGEST
 from softgrip.board.protocol import (
     BAUD,
@@ -32,6 +32,12 @@ def as_markdown(frame: pd.DataFrame) -> Markdown:
     rows += [(str(cell) for cell in row) for row in frame.itertuples(index=False)]
     text = "\n".join("| " + " | ".join(row) + " |" for row in rows)
     return Markdown(text)
+
+
+def readme_section(title: str) -> Markdown:
+    """Return a section of the firmware's description, without its title."""
+    _, _, text = README.read_text(encoding="utf-8").partition(f"\n## {title}\n")
+    return Markdown(text.partition("\n## ")[0].strip())
 
 
 def message_table() -> pd.DataFrame:

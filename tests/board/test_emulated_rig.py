@@ -5,8 +5,9 @@ import pytest
 
 from softgrip.board.driver import Board
 from softgrip.board.emulated.board import EmulatedBoard
-from softgrip.board.emulated.link import STEPS, EmulatedFingers, emulated_finger, finger, gripper
+from softgrip.board.emulated.link import EmulatedFingers, emulated_finger, finger, gripper
 from softgrip.board.emulated.terminal import Terminal
+from softgrip.board.firmware.config import STEPS
 from softgrip.board.protocol import CHANNELS, SETPOINT
 from softgrip.units import REV
 from tests.board.emulated import needs_emulator

@@ -1,11 +1,10 @@
-"""The table of messages, and the firmware's header that is made from it."""
+"""The table of messages."""
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from softgrip.board import protocol
-from softgrip.board.firmware import header
 from softgrip.board.protocol import BAUD, CHANNELS, MESSAGES, SETPOINT, TELEMETRY, TELEMETRY_PERIOD
 from softgrip.errors import InvalidInputError
 
@@ -58,11 +57,6 @@ def test_telemetry_takes_less_than_a_quarter_of_the_line():
 def test_a_table_that_changes_is_another_version():
     # Raise PROTOCOL_VERSION when this fails, then note the new checksum.
     assert (protocol.PROTOCOL_VERSION, protocol.TABLE) == (1, 0x9EB5765D)
-
-
-def test_the_header_is_up_to_date():
-    # Else run: python -m softgrip.board.firmware.header
-    assert header.HEADER.read_text() == header.header()
 
 
 @pytest.mark.parametrize("values", [{}, {"speed": 1, "more": 2}, {"speed": 2**31}, {"speed": 0.5}])

@@ -8,6 +8,7 @@ from dataclasses import replace
 from softgrip.board.driver import FLEX, PRESSURE, Board
 from softgrip.board.emulated.board import CLOCK, EmulatedBoard
 from softgrip.board.errors import ConnectionLostError
+from softgrip.board.firmware.config import STEPS
 from softgrip.gripper.internal_model import PERIOD as LOOP_PERIOD
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.gripper_parameters import printed_gripper
@@ -18,8 +19,6 @@ PERIOD = 0.005
 """At which board and physics tell each other of steps and volts, s."""
 CYCLE = 1 / CLOCK
 """Time goes on by whole cycles: what is nearer than one is now."""
-STEPS = 800
-"""A revolution, as in the firmware's config.h; a test holds it against what the board says."""
 
 
 class EmulatedLink:

@@ -8,21 +8,19 @@ import pytest
 import serial
 
 from book.companion.show import show
-from book.live import firmware as rig_firmware
 from book.live import protocol as rig_protocol
 from book.live.acceptance import bands_table
 from book.live.emulated import emulated_table, measured_firmware
 from book.live.finished import FinishedRun
 from book.live.panel import ControlPanel
 from softgrip.board.driver import HUNG_AFTER
-from softgrip.board.emulated.build import CORE
+from softgrip.board.firmware.config import AT_START, TABLES
+from softgrip.board.firmware.header import markdown
 from softgrip.board.framing import Frame, encode
-from softgrip.board.protocol import CHANNELS, MESSAGES, Flag
+from softgrip.board.protocol import MESSAGES, Flag
 from softgrip.board.session import HEARTBEAT_EVERY
-from softgrip.errors import DataFileError
 from softgrip.provenance import data_folder
 from softgrip.rig.acceptance import judge
-from tests.board.emulated import needs_emulator
 
 PAGES = ("rig", "commissioning", "protocol")
 KEPT = data_folder() / "simulated"
@@ -76,69 +74,19 @@ def test_pages_connect_to_simulated_rigs_only(root):
     assert all(one.startswith('"simulated"') for one in found)
 
 
-# Wiring.
-
-
-def test_pins_are_those_of_the_board():
-    variant = CORE / "variants" / "mega" / "pins_arduino.h"
-    if not variant.is_file():
-        pytest.skip("needs Debian's arduino-core-avr")
-    # The core's own table of ports, in the order of the board's pins: "// PB 5 ** 11 ** PWM11".
-    told = re.findall(r"// P([A-L]) (\d) \*\* (\d+) \*\*", variant.read_text())
-    known = {f"P{port}{bit}": int(pin) for port, bit, pin in told}
-    pins = rig_firmware.pins()
-    assert len(pins) == 4
-    for name, (bit, pin) in pins.items():
-        assert known[bit] == pin, name
-
-
-def test_the_wiring_table_has_each_wire_once():
-    table = rig_firmware.wiring_table()
-    what = dict(zip(table["pin"], table["what"], strict=True))
-    assert len(what) == len(table)
-    assert "STEP" in what["11"]
-    assert "DIR" in what["12"]
-    assert "switch" in what["8"]
-    assert "valve" in what["9"]
-    assert "pressure" in what[f"A{CHANNELS.index('pressure')}"]
-    assert "finger 2" in what[f"A{CHANNELS.index('flex_2')}"]
-    assert "force layer" in what[f"A{CHANNELS.index('layer')}"]
-    assert what["A0 to A7"].startswith("elements 1 to 8")
-
-
-def test_the_wiring_table_is_that_of_the_firmware_and_the_page_shows_it(root):
-    readme = rig_firmware.readme_section("Wiring")
-    told = re.findall(r"^\| (\d+) \| (\w+)", readme, re.MULTILINE)
-    names = {"STEP": "STEP", "DIR": "DIR", "home": "SWITCH", "valve": "VENT_OUT"}
-    found = {name: pin for name, (_, pin) in rig_firmware.pins().items()}
-    assert {names[word]: int(pin) for pin, word in told} == found
-    assert "wiring_table()" in "\n".join(cells(root, "commissioning"))
-
-
-def test_other_pins_are_refused(tmp_path):
-    other = tmp_path / "pins.h"
-    other.write_text("const uint8_t STEP = _BV(PB5);    // 11, OC1A\n")
-    with pytest.raises(DataFileError, match="STEP, DIR, SWITCH, VENT_OUT"):
-        rig_firmware.pins(other)
-
-
-# Limits.
-
-
-@needs_emulator
-def test_limits_of_the_page_are_those_that_the_firmware_tells():
-    from softgrip.board.emulated.link import emulated_finger
-
-    with emulated_finger() as rig:
-        assert rig.info.limits == rig_firmware.limits("AT_START")
-        assert rig.info.bounds == rig_firmware.limits("HARD")
-        assert rig.scale.steps == rig_firmware.constant("STEPS_PER_REVOLUTION")
+def test_the_pages_show_the_firmwares_own_tables(root):
+    shown = {"commissioning": ["Wiring"], "protocol": ["Limits", "What stops the motor"]}
+    for page, titles in shown.items():
+        text = "\n".join(cells(root, page))
+        for title in titles:
+            assert f'readme_section("{title}")' in text
+            assert markdown(*TABLES[title]) in rig_protocol.readme_section(title).text
 
 
 def test_the_live_page_tells_the_boards_silence(root):
     text = (root / "book" / "rig.md").read_text()
     assert re.findall(r"(\d+) ms stops the motor", text) == ["200"]
-    assert rig_firmware.board_limits("AT_START")["silence"] == 200
+    assert AT_START["silence"] == 200
 
 
 def test_the_protocol_page_tells_the_drivers_times(root):
@@ -146,36 +94,6 @@ def test_the_protocol_page_tells_the_drivers_times(root):
     assert (HEARTBEAT_EVERY, HUNG_AFTER) == (0.05, 0.5)
     assert "something each 50 ms" in text
     assert "half a second after the program asked" in text
-
-
-def test_limits_in_units():
-    table = rig_firmware.limits_table()
-    # 399 counts: 102.3 are 0 psi and 818.4 more are 80 psi, 551.58 kPa; 9000 steps of 0.01 mm.
-    assert [*table["at the start"]] == ["200 kPa", "90 mm", "5 rev/s", "50 rev/s²", "200 ms"]
-    assert [*table["furthest that can be set"]][:2] == ["300 kPa", "120 mm"]
-
-
-def test_what_stops_the_motor_has_the_numbers_of_the_configuration():
-    section = rig_firmware.readme_section("What stops the motor")
-    start = rig_firmware.board_limits("AT_START")
-    assert f"no valid frame for {start['silence']} ms" in section
-    assert f"over {rig_firmware.constant('STUCK_STEPS')} steps" in section
-    assert f"beyond {rig_firmware.constant('SWITCH_STEPS')} steps" in section
-    assert f"{rig_firmware.constant('PRESSURE_RELEASE')} counts below" in section
-    for name, volts in (("PRESSURE_LOW", "0.25"), ("PRESSURE_HIGH", "4.75")):
-        assert f"{rig_firmware.constant(name) * 5 / 1024:.2f}" == volts
-        assert f"{volts} V" in section
-
-
-def test_a_configuration_that_cannot_be_read_is_refused(tmp_path):
-    config = tmp_path / "config.h"
-    config.write_text("const SetLimits HARD = {1, 2,  // three are missing\n};\n")
-    with pytest.raises(DataFileError, match="5 numbers in HARD"):
-        rig_firmware.board_limits("HARD", config)
-    with pytest.raises(DataFileError, match="STEPS"):
-        rig_firmware.constant("STEPS", config)
-    with pytest.raises(DataFileError, match="'Colours'"):
-        rig_firmware.readme_section("Colours")
 
 
 # Protocol.
@@ -208,7 +126,7 @@ def test_all_messages_flags_and_reasons_are_shown(root):
     bits = rig_protocol.bit_table(Flag)
     assert [1 << bit for bit in bits["bit"]] == [int(flag) for flag in Flag]
     shown = "\n".join(cells(root, "protocol"))
-    for part in ("message_table()", "all_fields()", "limits_table()", "reason_table(Reason)"):
+    for part in ("message_table()", "all_fields()", "reason_table(Reason)"):
         assert part in shown
 
 

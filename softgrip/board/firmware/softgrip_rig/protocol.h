@@ -5,7 +5,7 @@
 
 const uint8_t PROTOCOL_VERSION = 1;
 const uint32_t PROTOCOL_TABLE = 0x9eb5765d;
-const uint32_t BUILD = 0x05c0cc64;
+const uint32_t BUILD = 0x82b5f39b;
 const uint32_t BAUD = 250000;
 const uint16_t TICKS_PER_SECOND = 1000;
 const uint8_t TICKS_PER_FRAME = 25;
