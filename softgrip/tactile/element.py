@@ -6,7 +6,7 @@ leaves out, the clamped base and a small top that sinks into a wide body, is lef
 """
 
 from dataclasses import dataclass
-from math import acosh, inf, isfinite, pi, sqrt
+from math import asinh, inf, isfinite, pi, sqrt
 from typing import Literal, get_args
 
 import numpy as np
@@ -148,7 +148,8 @@ def compliance(element: Element, young_modulus: float = STATED_MODULUS) -> float
         return inf
     if k == 1:
         return block
-    return block * (1 / k if element.shape == "pyramid" else acosh(1 / k) / sqrt(1 - k**2))
+    side = sqrt((1 - k) * (1 + k))  # arcosh(1 / k) is arsinh(side / k), which keeps its digits
+    return block * (1 / k if element.shape == "pyramid" else asinh(side / k) / side)
 
 
 def shortening(element: Element, force: Value, young_modulus: float = STATED_MODULUS) -> Value:
