@@ -87,20 +87,24 @@ class Plant:
         self.damping = self._column("damping") * chance.damping
         self.leakage = parameters.gas.leakage * chance.leakage
         self.power, self.inertia = self._column("fractional_power"), self._column("inertia")
-        self.torque_per_pressure = self._column("torque_per_pressure")
         self.friction, self.slow = self._column("friction"), self._column("friction_rate") ** 2
-        self.memory = self._column("memory").swapaxes(0, 1)
-        self.relaxation = 1 / self._column("memory_time").swapaxes(0, 1)
-        self.ballooning = float(self._column("ballooning").sum())
-        self.rest = float(self._column("rest_volume").sum()) + parameters.gas.dead_volume
+        fingers = parameters.fingers
+        pushes = [finger.torque_per_pressure for finger in fingers]
+        self.torque_per_pressure = np.array(pushes)[:, None]
+        self.memory = np.array([finger.memory for finger in fingers]).T[..., None]
+        self.relaxation = 1 / np.array([finger.memory_time for finger in fingers]).T[..., None]
+        self.ballooning = sum(finger.ballooning for finger in fingers)
+        self.rest = sum(finger.rest_volume for finger in fingers) + parameters.gas.dead_volume
         self.push: Floats = np.zeros(chance.stiffness.shape)
         self.rows = MEMORY + len(self.memory)
-        self.end = FINGERS + self.rows * len(parameters.fingers)
+        self.end = FINGERS + self.rows * len(fingers)
         self.states = self.end + (contact.states if contact else 0)
 
-    def _column(self, name: str) -> Floats:
-        values = np.array([getattr(finger, name) for finger in self.parameters.fingers])
-        return values.astype(np.float64)[..., None]
+    def _column(self, name: str) -> Value:
+        """Return a parameter of each finger, shape (fingers, 1); a number if all are alike."""
+        values = [float(getattr(finger, name)) for finger in self.parameters.fingers]
+        # NumPy is faster with numbers.
+        return values[0] if len(set(values)) == 1 else np.array(values)[:, None]
 
     def fingers(self, state: Floats) -> Floats:
         """Return a view of the fingers' part of a state, shape (rows, fingers, runs)."""
