@@ -18,7 +18,7 @@ from softgrip.provenance import data_folder
 from softgrip.rig.connect import connect
 from softgrip.rig.live import Sample
 from softgrip.units import DEG, REV
-from tests.rig.test_live import until
+from tests.rig.test_live import SOON, until
 
 
 @pytest.fixture
@@ -31,10 +31,14 @@ def panel(tmp_path):
 
 def begin(panel):
     panel.start.click()
-    until(lambda: panel.run is not None and len(panel.run.samples) > 8)
+    assert panel.run is not None, panel.words.value
+    until(lambda: len(panel.run.samples) > 8 or not panel.run.running)
+    assert panel.run.running, panel.run.error
 
 
 def over(panel):
+    panel.run.join(SOON)
+    assert not panel.run.running, panel.words.value
     until(lambda: not panel.start.disabled)
 
 
