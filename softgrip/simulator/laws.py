@@ -100,7 +100,7 @@ class Plant:
         self.end = FINGERS + self.rows * len(fingers)
         self.states = self.end + (contact.states if contact else 0)
 
-    def _column(self, name: str) -> Value:
+    def _column(self, name: str) -> Number:
         """Return a parameter of each finger, shape (fingers, 1); a number if all are alike."""
         values = [float(getattr(finger, name)) for finger in self.parameters.fingers]
         # NumPy is faster with numbers.
