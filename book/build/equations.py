@@ -211,9 +211,9 @@ def source_of_tests(_app: Sphinx, module: str) -> tuple[str, dict[str, Any]] | N
     return analyzer.code, analyzer.find_tags()
 
 
-def home_of_tests(_app: Sphinx, module: str | None, _name: str) -> str | None:
-    """Say that a test is defined where it is listed."""
-    return module if module and module.startswith("tests.") else None
+def home(_app: Sphinx, module: str | None, _name: str) -> str | None:
+    """Say that all is defined where it is listed: properties too, which know no module."""
+    return module
 
 
 def find_changed_links(_app: Sphinx, env: Any) -> list[str]:
@@ -247,6 +247,6 @@ def setup(app: Sphinx) -> None:
     app.add_directive("equations", Equations)
     app.add_directive("equation-tests", EquationTests)
     app.connect("viewcode-find-source", source_of_tests)
-    app.connect("viewcode-follow-imported", home_of_tests)
+    app.connect("viewcode-follow-imported", home)
     app.connect("env-get-updated", find_changed_links)
     app.connect("doctree-resolved", add_links)
