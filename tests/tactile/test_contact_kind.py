@@ -33,7 +33,7 @@ def test_code_and_back(kinds):
 
 
 def test_codes_are_those_of_figure_2_6():
-    """Eq. (2.4): the three rows of the unit matrix."""
+    """Eq. (2.4)."""
     assert one_hot(["point", "line", "surface"]).tolist() == [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
 
 

@@ -56,7 +56,7 @@ def test_kinds_and_truth_may_be_unknown_but_no_half_of_the_truth():
 
 
 def test_one_reading_is_checked_as_many_are():
-    """Eq. (2.3): a reading is eight numbers."""
+    """Eq. (2.3): eight responses, each from 0 to 1."""
     assert check_responses([0.5] * 8).shape == (8,)
     with pytest.raises(InvalidInputError, match="8 channels"):
         check_responses(0.5)

@@ -89,10 +89,13 @@ def test_printed_cross_sections():
 
 @given(force=st.floats(0, 1), cut=CUTS, factor=st.floats(0.1, 10))
 def test_shortening_is_linear_in_force_and_inverse_in_modulus(force, cut, factor):
+    """Eq. (2.1): a prism under 1 N gives way by F L / (E A), and every element in proportion."""
     element = Element("pyramid", cut=cut)
     once = shortening(element, force)
     assert shortening(element, factor * force) == pytest.approx(factor * once)
     assert shortening(element, force, 0.125e6 * factor) == pytest.approx(once / factor)
+    prism = Element("pyramid", 6 * MM, 3 * MM, 1.0)
+    assert shortening(prism, 1.0, 0.125e6) == pytest.approx(0.003 / (0.125e6 * 0.006**2))
 
 
 @given(factor=st.floats(0.1, 10))

@@ -90,13 +90,13 @@ FORCES = st.floats(1e-3, 10)
 
 @given(force=FORCES, friction=st.floats(0.01, 10))
 def test_equations_undo_each_other(force, friction):
-    """Eq. (2.9) is Eq. (2.8) turned round."""
+    """Eq. (2.9) is the inverse of the force that each finger must press with."""
     assert lift_force(contact_force(force, friction), friction) == pytest.approx(force, rel=1e-12)
 
 
 @given(force=FORCES, friction=st.floats(0.01, 10))
 def test_friction_of_two_fingers_balances_the_lift_force(force, friction):
-    """Eq. (2.8) by Coulomb: each of two fingers bears friction times the force that presses it."""
+    """Eq. (2.8) by Coulomb: each of two fingers bears friction times the force on it."""
     pressed = contact_force(force, friction)
     assert friction * pressed + friction * pressed == pytest.approx(force, rel=1e-12)
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.stats import norm
 
 from softgrip.errors import InvalidInputError
 from softgrip.tactile.kernel_average import (
@@ -15,6 +16,7 @@ from softgrip.tactile.kernel_average import (
     MARGIN,
     exact_average,
     fast_average,
+    gaussian,
     moments,
     plan,
 )
@@ -55,11 +57,17 @@ def test_fast_average_is_that_of_forty_digits():
 
 
 def test_three_points_by_hand():
-    """Eq. (2.6) with the kernel of Eq. (2.7), by hand."""
-    # Halfway between two points the third adds exp(-9/8) / (2 exp(-1/8)) = 1 / (2 e).
+    """Eq. (2.6): the third point adds exp(-9/8) / (2 exp(-1/8)) = 1 / (2 e) to the two beside."""
     found = exact_average(np.array([[0.5]]), np.array([[0.0], [1], [2]]), np.array([0.0, 1, 5]), 1)
     expected = (1 + 5 * math.exp(-1)) / (2 + math.exp(-1))
     assert found == pytest.approx([expected], rel=1e-14)
+
+
+def test_weights_are_in_the_ratio_of_a_normal_density():
+    """Eq. (2.7), by SciPy; the common factor cancels in the average."""
+    squares = np.array([[0.2, 1.0, 9.0]])
+    density = norm.pdf(np.sqrt(squares))
+    assert gaussian(squares) == pytest.approx(density / density.max(), rel=1e-12)
 
 
 def test_exact_average_is_that_of_sums_written_out():

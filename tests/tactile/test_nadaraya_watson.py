@@ -63,6 +63,17 @@ def test_wide_kernel_is_the_mean():
     np.testing.assert_allclose(found, y.mean(), rtol=1e-9)
 
 
+def test_regression_is_nearer_to_g_than_the_noisy_data_are():
+    """Eq. (2.5): of ``f = g + noise`` it finds g, at the points, better than they say it."""
+    rng = np.random.default_rng(0)
+    X = rng.random((300, 1))
+    g = np.sin(5 * X[:, 0])
+    f = g + 0.1 * rng.normal(size=300)
+    found = NadarayaWatson().fit(X, f).predict(X)
+    # Some 20 points share a bandwidth, so that the noise's part falls to about a quarter.
+    assert np.std(found - g) < 0.5 * np.std(f - g)
+
+
 def test_far_from_all_data_it_is_the_nearest_target():
     X, y = data()
     left, right = y[X[:, 0].argmin()], y[X[:, 0].argmax()]
