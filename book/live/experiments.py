@@ -11,7 +11,7 @@ import numpy as np
 from book.chapter_4.controllers import controller
 from softgrip.control.pid import PERIOD
 from softgrip.control.staircase import staircase
-from softgrip.rig.live_experiment import LiveExperiment
+from softgrip.rig.live import LiveExperiment
 from softgrip.units import DEG
 
 STEP = 60 * DEG

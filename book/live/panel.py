@@ -12,14 +12,13 @@ from typing import Any
 
 import ipywidgets as widgets
 
+from book.companion.save import svg
 from book.companion.show import image
 from book.live.experiments import experiments
-from book.live.finished import FinishedRun
 from book.live.plot import LivePlot
-from softgrip.errors import SoftgripError
-from softgrip.rig.interface import Connection
-from softgrip.rig.live import LiveRun
-from softgrip.rig.live_rig import check_period
+from softgrip.errors import InvalidInputError, SoftgripError
+from softgrip.rig.interface import Rig
+from softgrip.rig.live import LiveRun, check_period
 
 REDRAW_EVERY = 0.25
 """s."""
@@ -42,14 +41,14 @@ class ControlPanel:
 
     def __init__(
         self,
-        connection: Connection,
+        rig: Rig,
         folder: Path | str,
         *,
         real_time: bool = True,
         rest: float = REST,
     ) -> None:
-        check_period(connection)
-        self.connection, self.folder = connection, Path(folder)
+        check_period(rig)
+        self.rig, self.folder = rig, Path(folder)
         self.logs: dict[str, list[Path]] = {name: [] for name in experiments()}
         self.run: LiveRun | None = None
         self._real_time, self._rest = real_time, rest
@@ -79,20 +78,20 @@ class ControlPanel:
 
     @property
     def _busy(self) -> bool:
-        return self.run is not None and self.run.running
+        return self.run is not None and self.run.is_alive()
 
     def _start(self) -> None:
         if self._busy:
             return
         experiment = experiments()[self.experiment.value]
         run = LiveRun(
-            self.connection,
+            self.rig,
             experiment,
             experiment.log_path(self.folder),
             rest=self._rest,
             real_time=self._real_time,
         )
-        plot = LivePlot(experiment, self.connection.fingers, run.back_end)
+        plot = LivePlot(experiment, self.rig.fingers, self.rig.header().back_end)
         run.start()
         self.run = run
         self.start.disabled = self.clear.disabled = True
@@ -103,17 +102,17 @@ class ControlPanel:
         if self.run is not None and self._busy:
             self.run.emergency_stop()
         else:
-            self.connection.emergency_stop()
+            self.rig.emergency_stop()
             self._say("stopped; clear the stop to go on")
 
     def _clear(self) -> None:
         if not self._busy:
-            self.connection.clear()
+            self.rig.clear()
             self._say("cleared")
 
     def _follow(self, run: LiveRun, plot: LivePlot) -> None:
         try:
-            while run.running:
+            while run.is_alive():
                 self._draw(run, plot)
                 run.join(REDRAW_EVERY)
             self._draw(run, plot)
@@ -138,15 +137,52 @@ class ControlPanel:
             # Else the run would take the closed line for a lost one, and find it again.
             self.run.emergency_stop()
             self.run.join()
-        with self.connection:
+        with self.rig:
             pass
 
     def _repr_mimebundle_(self, **options: Any) -> Mapping[str, Any]:
         return self.widget._repr_mimebundle_(**options)  # type: ignore[no-any-return]
 
 
+class FinishedRun:
+    """A run of the simulated rig as a still picture, for a page that no kernel serves.
+
+    Attributes
+    ----------
+    logs
+        As of `ControlPanel`.
+    run
+        What was run.
+    """
+
+    def __init__(self, rig: Rig, folder: Path | str, name: str) -> None:
+        if (found := rig.header().back_end) != "simulated rig":
+            raise InvalidInputError("rig", expected="the simulated rig", got=found)
+        self._rig = rig
+        run = LiveRun(rig, experiments()[name], Path(folder) / f"{name}.csv", real_time=False)
+        run.start()
+        run.wait()
+        self.run, self._made = run, LivePlot(run.experiment, rig.fingers, found)
+        self._made.update(run.samples)
+        self.logs = {one: [run.path] if one == name else [] for one in experiments()}
+
+    def close(self) -> None:
+        """Give the rig up."""
+        with self._rig:
+            pass
+
+    def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
+        picture = image(svg(self._made.figure), "svg+xml", self._made.alt(self.run.samples))
+        words = (
+            f"This page has no kernel. What stands here is a finished {self.run.experiment.name} "
+            "of the <b>simulated</b> rig. Opened as a notebook, here are the buttons and the plot "
+            "of a run while it goes on."
+        )
+        return {"text/html": f"{picture}<p><small>{words}</small></p>"}
+
+
 def control_panel(
-    connection: Connection,
+    rig: Rig,
     folder: Path | str | None = None,
     *,
     shown: str = "staircase",
@@ -161,7 +197,7 @@ def control_panel(
 
     Parameters
     ----------
-    connection
+    rig
         Sampled each 25 ms.
     folder
         Of the logs; None for `FOLDER`, or, in the built book, one that is thrown away.
@@ -174,5 +210,5 @@ def control_panel(
         if folder is None:
             folder = mkdtemp()
             atexit.register(shutil.rmtree, folder, ignore_errors=True)
-        return FinishedRun(connection, folder, shown)
-    return ControlPanel(connection, FOLDER if folder is None else folder, real_time=real_time)
+        return FinishedRun(rig, folder, shown)
+    return ControlPanel(rig, FOLDER if folder is None else folder, real_time=real_time)

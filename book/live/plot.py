@@ -9,8 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from book.companion.style import BLUE, GREEN, MEASURED, PRINTED, VERMILION, WIDTH, style
-from softgrip.rig.live import Sample
-from softgrip.rig.live_experiment import LiveExperiment
+from softgrip.rig.live import LiveExperiment, Sample
 from softgrip.units import DEG, REV
 
 FINGERS = ((MEASURED, "-"), (BLUE, "--"))

@@ -18,7 +18,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m softgrip.rig", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
     one = commands.add_parser("check", help="diagnose a rig; nothing moves")
-    one.add_argument("--port", help="a port, a URL, simulated, replay:PATH; none: look for it")
+    one.add_argument("--port", help="a port, a URL, simulated, emulated, replay:PATH; none: look")
     one.add_argument("--fingers", type=int, default=1)
     one.add_argument("--calibration", help="file of the board's calibration")
     commands.add_parser("find", help="list the ports that may be a board")

@@ -1,18 +1,25 @@
-"""One name for each back end: a simulated rig, a replay, a board on a port, or the one found."""
+"""One name for each back end: simulated, emulated, replayed, or a board on a port."""
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from softgrip.board.calibration import load
 from softgrip.board.driver import Board
+from softgrip.board.emulated.link import emulated_finger, emulated_gripper
 from softgrip.board.find import find_board
 from softgrip.board.protocol import TELEMETRY_PERIOD
 from softgrip.errors import UnknownNameError
-from softgrip.rig.interface import Connection
-from softgrip.rig.replay import ReplayConnection
+from softgrip.rig.interface import Rig
+from softgrip.rig.replay import Replay
 from softgrip.rig.simulated import simulated_finger, simulated_gripper
 
-SIMULATED = {"simulated": simulated_finger, "simulated:gripper": simulated_gripper}
+NAMED: dict[str, Callable[..., Rig]] = {
+    "simulated": simulated_finger,
+    "simulated:gripper": simulated_gripper,
+    "emulated": emulated_finger,
+    "emulated:gripper": emulated_gripper,
+}
 
 
 def connect(
@@ -23,21 +30,23 @@ def connect(
     calibration: Path | str | None = None,
     seed: int = 0,
     emulated: bool = False,
-) -> Connection:
-    """Return a rig to drive, replayed, simulated or real.
+) -> Rig:
+    """Return a rig to drive: simulated, replayed, emulated or real.
 
     Parameters
     ----------
     where
-        "simulated" for the finger of Chapters 3 to 5, "simulated:gripper" for the two of Chapter 6,
-        "replay:PATH" for a log, a port or a URL such as "socket://host:port", or None for the one
-        board that is found on USB.
+        "simulated" for the finger of Chapters 3 to 5, "simulated:gripper" for the two of Chapter 6;
+        "emulated" and "emulated:gripper" for the same at the pins of an emulated ATmega2560 that
+        runs the firmware, whose virtual time goes on when a sample is asked for; "replay:PATH" for
+        a log; a port or a URL such as "socket://host:port"; or None for the one board that is
+        found on USB.
     fingers, period
-        Of a board; the others have their own.
+        Of a board on a port; the others have their own.
     calibration
-        File of `calibration`, for a board; None for the data sheets' lines.
+        File of `calibration`, for a board on a port; None for the data sheets' lines.
     seed
-        Of chance, for a simulated rig.
+        Of chance, for what is simulated or emulated.
     emulated
         Whether what answers on a port is an emulated board: its logs are then called simulated.
 
@@ -45,6 +54,8 @@ def connect(
     ------
     BoardError
         If a board cannot be reached.
+    EmulatorUnavailableError
+        If the compiler or the emulator is not installed; it says how to get them.
     DataFileError
         If a log or a calibration cannot be read.
 
@@ -55,12 +66,12 @@ def connect(
     ...     rig.advance(10.0).time
     0.025
     """
-    if where is not None and where.startswith("simulated"):
-        if where not in SIMULATED:
-            raise UnknownNameError("simulated rig", where, [*SIMULATED])
-        return SIMULATED[where](seed=seed)
+    if where is not None and where.partition(":")[0] in ("simulated", "emulated"):
+        if where not in NAMED:
+            raise UnknownNameError("back end", where, [*NAMED])
+        return NAMED[where](seed=seed)
     if where is not None and where.startswith("replay:"):
-        return ReplayConnection(where.removeprefix("replay:"))
+        return Replay(where.removeprefix("replay:"))
     if where is None:
         found = find_board()
         print(f"found {found}", file=sys.stderr)

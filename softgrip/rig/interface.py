@@ -11,7 +11,7 @@ from softgrip.simulator.motor import one_speed
 from softgrip.simulator.sensors import Measurement
 
 
-class Connection(Protocol):
+class Rig(Protocol):
     """A rig that is sampled: a context manager that stops the pump on its way out.
 
     A measurement has a pressure of shape (1,) and angles of shape (fingers, 1), as those of a
@@ -26,6 +26,15 @@ class Connection(Protocol):
     @property
     def fingers(self) -> int:
         """Number of fingers with a flex sensor."""
+        ...
+
+    @property
+    def real_time(self) -> bool:
+        """Whether its time goes on by itself, as a board's does, and not only when asked.
+
+        Then it keeps the pace of a clock, and hears an emergency stop while another thread waits
+        for a sample; else nothing can be said to it but between two periods.
+        """
         ...
 
     def measure(self) -> Measurement:

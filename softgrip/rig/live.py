@@ -2,20 +2,72 @@
 
 import threading
 import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 from typing import NamedTuple
 from weakref import WeakSet
 
+import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.board.driver import Board
+from softgrip.arrays import Floats
+from softgrip.control.loop import Controller
+from softgrip.control.pid import PERIOD
 from softgrip.control.rig_controller import Tracking
 from softgrip.errors import InvalidInputError
-from softgrip.rig.interface import Connection
-from softgrip.rig.live_experiment import LiveExperiment
-from softgrip.rig.live_rig import check_period, listens
+from softgrip.rig.interface import Rig
 from softgrip.rig.record import Recording, record
 from softgrip.simulator.motor import one_speed
+
+
+@dataclass(frozen=True)
+class LiveExperiment:
+    """What is run.
+
+    Attributes
+    ----------
+    name
+        For the log's name.
+    reference
+        rad, shape (N,), a sample each 25 ms.
+    controller
+        Makes what follows it, from one angle to motor speed.
+    shows
+        In words, for the log.
+    """
+
+    name: str
+    reference: Floats
+    controller: Callable[[], Controller]
+    shows: str
+
+    @property
+    def duration(self) -> float:
+        """From the first sample to the last, s."""
+        return (self.reference.size - 1) * PERIOD
+
+    @property
+    def time(self) -> Floats:
+        """Of the samples, s, shape (N,)."""
+        return np.arange(float(self.reference.size)) * PERIOD
+
+    def log_path(self, folder: Path | str) -> Path:
+        """Return a path for a new log, with the name and the time; make its folder.
+
+        To the microsecond, for a run that is stopped and begun again needs less than a second.
+        """
+        made = Path(folder)
+        made.mkdir(parents=True, exist_ok=True)
+        return made / f"{self.name}-{datetime.now():%Y-%m-%d-%H%M%S-%f}.csv"
+
+
+def check_period(rig: Rig) -> None:
+    """Raise `InvalidInputError` unless a rig is sampled as the controller is, each 25 ms."""
+    if abs(rig.period - PERIOD) > 1e-9:
+        raise InvalidInputError("rig", expected=f"a period of {PERIOD} s", got=rig.period)
+
 
 _STARTED: "WeakSet[LiveRun]" = WeakSet()
 
@@ -29,12 +81,14 @@ class Sample(NamedTuple):
     angles: tuple[float, ...]
 
 
-class LiveRun:
+class LiveRun(threading.Thread):
     """An experiment on a rig: home, rest, run. Nothing moves before `start`.
+
+    A daemon: when the program ends, nobody speaks to the board any more, and it stops.
 
     Parameters
     ----------
-    connection
+    rig
         Sampled each 25 ms. Nothing else may use it until the run is over.
     experiment
         What is run.
@@ -43,7 +97,7 @@ class LiveRun:
     rest
         How long to wait after homing, s, for a finger that was bent before.
     real_time
-        Whether a rig that is no board is held back to the pace of a clock.
+        Whether a rig in virtual time is held back to the pace of a clock.
 
     Attributes
     ----------
@@ -73,35 +127,24 @@ class LiveRun:
 
     def __init__(
         self,
-        connection: Connection,
+        rig: Rig,
         experiment: LiveExperiment,
         path: Path | str,
         *,
         rest: float = 0.0,
         real_time: bool = True,
     ) -> None:
-        check_period(connection)
-        self.connection, self.experiment, self.path = connection, experiment, Path(path)
+        check_period(rig)
+        super().__init__(name="softgrip run", daemon=True)
+        self.rig, self.experiment, self.path = rig, experiment, Path(path)
         self.samples: list[Sample] = []
         self.state = "ready"
         self.recording: Recording | None = None
         self.error: Exception | None = None
-        self._rest, self._paced = rest, real_time and not isinstance(connection, Board)
+        self._rest, self._paced = rest, real_time and not rig.real_time
         self._control = Tracking(experiment.controller(), experiment.reference)
         self._command, self._begun = 0.0, 0.0
         self._halt = threading.Event()
-        # A daemon: when the program ends, nobody speaks to the board any more, and it stops.
-        self._thread = threading.Thread(target=self._run, name="softgrip run", daemon=True)
-
-    @property
-    def back_end(self) -> str:
-        """What is driven, in words."""
-        return self.connection.header().back_end
-
-    @property
-    def running(self) -> bool:
-        """Whether the thread is at work."""
-        return self._thread.is_alive()
 
     def start(self) -> None:
         """Begin; a run can be started once.
@@ -111,12 +154,10 @@ class LiveRun:
         InvalidInputError
             If another run of this rig is on.
         """
-        if any(run.running and run.connection is self.connection for run in _STARTED):
-            raise InvalidInputError(
-                "connection", expected="a rig with no other run on", got=self.connection
-            )
+        if any(run.is_alive() and run.rig is self.rig for run in _STARTED):
+            raise InvalidInputError("rig", expected="a rig with no other run on", got=self.rig)
         _STARTED.add(self)
-        self._thread.start()
+        super().start()
 
     def wait(self, within: float | None = None) -> Recording:
         """Wait for the end and return how the run went.
@@ -140,22 +181,19 @@ class LiveRun:
             raise TimeoutError(f"{self.experiment.name} is not over in {within} s")
         return self.recording
 
-    def join(self, within: float | None = None) -> None:
-        """Wait for the end, whatever it is, for at most some seconds."""
-        self._thread.join(within)
-
     def emergency_stop(self) -> None:
         """Stop the motor at once and end the run; the rig refuses to move until it is cleared.
 
-        A board is told at once, a rig that is no board before its next period. If the line is
+        A rig in real time is told at once, another one before its next period. If the line is
         lost, this raises `ConnectionLostError`, the board stops by itself, and it is told again
         when the line is back.
         """
         self._halt.set()
-        if listens(self.connection):
-            self.connection.emergency_stop()
+        if self.rig.real_time:
+            self.rig.emergency_stop()
 
-    def _run(self) -> None:
+    def run(self) -> None:
+        """Drive the rig: what the thread does."""
         try:
             self._drive()
             self.state = "done"
@@ -165,15 +203,15 @@ class LiveRun:
 
     def _drive(self) -> None:
         self.state = "homing"
-        self.connection.home()
+        self.rig.home()
         self.state = "resting"
-        for _ in range(round(self._rest / self.connection.period)):
+        for _ in range(round(self._rest / self.rig.period)):
             self._obey()
-            self.connection.advance(0.0)
+            self.rig.advance(0.0)
         self.state = "running"
         self._begun = time.monotonic()
         self.recording = record(
-            self.connection,
+            self.rig,
             self,
             self.experiment.duration,
             self.path,
@@ -184,7 +222,7 @@ class LiveRun:
 
     def _obey(self) -> None:
         if self._halt.is_set():
-            self.connection.emergency_stop()  # what is commanded next is refused, and ends the run
+            self.rig.emergency_stop()  # what is commanded next is refused, and ends the run
 
     def update(self, measured: ArrayLike) -> float:
         """Return the next command, rad/s: `record` asks, in the thread."""
@@ -193,7 +231,7 @@ class LiveRun:
         return self._command
 
     def _sampled(self, done: float, duration: float) -> None:  # noqa: ARG002
-        seen = self.connection.measure()
+        seen = self.rig.measure()
         angles = tuple(float(angle) for angle in seen.angle[:, 0])
         self.samples.append(Sample(done, self._command, float(seen.pressure[0]), angles))
         if self._paced and (early := self._begun + done - time.monotonic()) > 0:

@@ -18,8 +18,8 @@ from softgrip.rig.interface import Interlock
 from softgrip.simulator.sensors import Measurement
 
 
-class ReplayConnection:
-    """A log of the gripper as a `Connection`, one row a call of `advance`.
+class Replay:
+    """A log of the gripper as a `Rig`, one row a call of `advance`.
 
     A log with a gap is given as it came: the row after it is the next one, with its own time, and
     an event that names the gap. A board's driver does the same when telemetry is lost, so that a
@@ -41,6 +41,8 @@ class ReplayConnection:
     DataFileError
         If it cannot be read, holds no row, or is a log of the pad.
     """
+
+    real_time = False
 
     def __init__(self, path: Path | str) -> None:
         self.log = read_log(path)
@@ -68,7 +70,7 @@ class ReplayConnection:
         )
 
     def advance(self, command: ArrayLike) -> Measurement:
-        """Return the next row; see `Connection.advance`.
+        """Return the next row; see `Rig.advance`.
 
         Raises
         ------

@@ -7,15 +7,14 @@ from book.chapter_3.regulators import regulator
 from book.chapter_4.controllers import controller
 from book.chapter_6.controllers import gripper_controller, own_model, target_angles
 from book.companion.simulated_logs import STEP
-from softgrip.board.driver import HUNG_AFTER, Board
+from softgrip.board.driver import HUNG_AFTER
 from softgrip.board.errors import CommandRefusedError
 from softgrip.control.rig_controller import Tracking
-from softgrip.gripper.internal_model import PERIOD
 from softgrip.logs.fingers import fingers_of
 from softgrip.logs.reader import read_log
 from softgrip.rig.check import run_check
+from softgrip.rig.connect import connect
 from softgrip.rig.record import record
-from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.units import DEG
 from tests.board.emulated import needs_emulator
 
@@ -25,25 +24,13 @@ END_NOISE = 2 * DEG / np.sqrt(40) * 4
 """rad: four deviations of the mean of 40 samples of the flex sensor's noise."""
 
 
-def finger_rig():
-    from softgrip.board.emulated.link import emulated_finger
-
-    return emulated_finger()
-
-
-def gripper_rig():
-    from softgrip.board.emulated.link import EmulatedFingers, gripper
-
-    return Board(EmulatedFingers(gripper()), fingers=2, period=PERIOD, pump=printed_gripper().pump)
-
-
 @pytest.fixture
 def path(tmp_path):
     return tmp_path / "log.csv"
 
 
 def test_chapter_4_pid(path):
-    with finger_rig() as rig:
+    with connect("emulated") as rig:
         rig.home()
         record(rig, Tracking(controller("full"), STEP), 6.0, path, reference=STEP)
         assert rig.session.lost == 0
@@ -55,7 +42,7 @@ def test_chapter_4_pid(path):
 
 
 def test_chapter_3_lqr(path):
-    with finger_rig() as rig:
+    with connect("emulated") as rig:
         rig.home()
         record(rig, Tracking(regulator("fast"), STEP), 3.0, path, reference=STEP)
     assert read_log(path)["angle"][-40:].mean() == pytest.approx(STEP, abs=0.05 * STEP + END_NOISE)
@@ -63,7 +50,7 @@ def test_chapter_3_lqr(path):
 
 def test_chapter_6_scheme(path):
     targets = target_angles(own_model())
-    with gripper_rig() as rig:
+    with connect("emulated:gripper") as rig:
         rig.home()
         record(rig, gripper_controller("H 2/s"), 7.0, path, reference=targets)
     log = read_log(path)
@@ -76,7 +63,7 @@ def test_chapter_6_scheme(path):
 
 
 def test_what_the_board_counts_is_what_the_pump_does():
-    with finger_rig() as rig:
+    with connect("emulated") as rig:
         rig.home()
         for _ in range(40):
             rig.advance(10.0)
@@ -90,12 +77,12 @@ def test_what_the_board_counts_is_what_the_pump_does():
 
 def test_a_check_of_the_firmware():
     lines = []
-    assert run_check(finger_rig, lines.append) == 0, lines
+    assert run_check(lambda: connect("emulated"), lines.append) == 0, lines
     assert any("telemetry: 40." in line and " 0 of 80 frames lost" in line for line in lines)
 
 
 def test_a_host_that_hangs_stops_the_motor():
-    with finger_rig() as rig:
+    with connect("emulated") as rig:
         rig.home()
         rig.advance(5.0)
         board = rig.session.link.board
@@ -105,7 +92,7 @@ def test_a_host_that_hangs_stops_the_motor():
 
 
 def test_firmware_that_hangs_is_reset_and_the_run_ends_at_rest(path):
-    with finger_rig() as rig:
+    with connect("emulated") as rig:
         rig.home()
         board, count = rig.session.link.board, 0
 
@@ -127,7 +114,7 @@ def test_firmware_that_hangs_is_reset_and_the_run_ends_at_rest(path):
 
 
 def test_homing_that_is_broken_off_stops_the_motor():
-    with finger_rig() as rig:
+    with connect("emulated") as rig:
         board = rig.session.link.board
         position = board.position
         read, count = rig.session.link.read, 0

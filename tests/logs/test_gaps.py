@@ -20,7 +20,7 @@ from softgrip.logs.steps import step_figures, step_log_figures
 from softgrip.provenance import data_folder
 from softgrip.rig.__main__ import main
 from softgrip.rig.record import record
-from softgrip.rig.replay import ReplayConnection
+from softgrip.rig.replay import Replay
 from softgrip.tactile.drift import DRIFT_WEIGHTS
 from softgrip.units import GRAM_FORCE
 from tests.rig.test_check import checked
@@ -171,7 +171,7 @@ def test_a_drivers_log_with_lost_telemetry_names_the_place(path, stub):
 def test_replay_keeps_the_time_and_tells_of_the_gap(path, tmp_path):
     without(path, STEP, range(40, 45))
     log, again = read_log(path), tmp_path / "again.csv"
-    with ReplayConnection(path) as replay:
+    with Replay(path) as replay:
         replay.home()
         record(replay, log["command"][1:], 3.0, again)
         assert replay.difference == 0

@@ -6,13 +6,13 @@ The board itself is tested where SOFTGRIP_RIG_PORT names its port; its motor the
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 import pytest
 
 from softgrip.board.driver import Board
 from softgrip.board.emulated.build import missing
-from softgrip.board.emulated.link import emulated_finger
 from softgrip.board.errors import CommandRefusedError
 from softgrip.board.protocol import Flag
 from softgrip.errors import InvalidInputError
@@ -21,7 +21,7 @@ from softgrip.logs.reader import read_log
 from softgrip.provenance import Provenance, data_folder
 from softgrip.rig.connect import connect
 from softgrip.rig.record import record
-from softgrip.rig.simulated import SimulatedConnection
+from softgrip.rig.simulated import SimulatedRig
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.simulation import Simulation
@@ -48,15 +48,15 @@ def stub_rig():
     return Board(StubBoard())
 
 
-def emulated_rig():
+def emulated_rig(where):
     if missing():
         pytest.skip(f"the emulated board needs: apt install {missing()}")
-    return emulated_finger()
+    return connect(where)
 
 
-def lowered(emulated_finger):
+def lowered(open_rig):
     def open_low():
-        rig = emulated_finger()
+        rig = open_rig()
         rig.set_limits(replace(rig.info.limits, pressure=LOW))
         return rig
 
@@ -64,11 +64,11 @@ def lowered(emulated_finger):
 
 
 def low_finger():
-    return SimulatedConnection(Simulation(design_1()), pressure_limit=LOW)
+    return SimulatedRig(Simulation(design_1()), pressure_limit=LOW)
 
 
 def low_gripper():
-    return SimulatedConnection(Simulation(printed_gripper(), period=0.1), pressure_limit=LOW)
+    return SimulatedRig(Simulation(printed_gripper(), period=0.1), pressure_limit=LOW)
 
 
 def no_limit():
@@ -100,9 +100,17 @@ BACK_ENDS = {
     "stub board": BackEnd(
         stub_rig, lowered(stub_rig), "emulated board", SIMULATED, told_speed, 1e-6
     ),
-    "emulated board": BackEnd(
-        emulated_rig, lowered(emulated_rig), "emulated board", SIMULATED, told_speed, 1e-6
-    ),
+    **{
+        where: BackEnd(
+            partial(emulated_rig, where),
+            lowered(partial(emulated_rig, where)),
+            "emulated board",
+            SIMULATED,
+            told_speed,
+            1e-6,
+        )
+        for where in ("emulated", "emulated:gripper")
+    },
     "board": BackEnd(the_board, lowered(the_board), "board", Provenance.LOGGED, told_speed, 0.03),
 }
 

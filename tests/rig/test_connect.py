@@ -6,11 +6,13 @@ import pytest
 
 from softgrip.board.calibration import nominal, save
 from softgrip.board.driver import Board
+from softgrip.board.emulated import build
 from softgrip.board.errors import NoBoardError, PortUnavailableError
 from softgrip.board.find import candidates, find_board
 from softgrip.errors import UnknownNameError
+from softgrip.rig.__main__ import main
 from softgrip.rig.connect import connect
-from softgrip.rig.simulated import SimulatedConnection
+from softgrip.rig.simulated import SimulatedRig
 
 
 def usb(device, vid=0x2341, pid=0x0042):
@@ -19,12 +21,22 @@ def usb(device, vid=0x2341, pid=0x0042):
 
 def test_names_of_simulated_rigs():
     with connect("simulated") as one, connect("simulated:gripper", seed=3) as two:
-        assert isinstance(one, SimulatedConnection)
+        assert isinstance(one, SimulatedRig)
         assert (one.fingers, one.period) == (1, 0.025)
         assert (two.fingers, two.period) == (2, 0.1)
         assert two.header().seed == "3"
     with pytest.raises(UnknownNameError, match="simulated:gripper"):
         connect("simulated:hand")
+
+
+@pytest.mark.parametrize("where", ["emulated", "emulated:gripper"])
+def test_an_emulator_that_is_not_installed_says_what_to_install(where, monkeypatch, capsys):
+    monkeypatch.setitem(build.NEEDED, "no-such-compiler", "gcc-avr")
+    build.firmware.cache_clear()
+    with pytest.raises(build.EmulatorUnavailableError, match=r"apt install .*gcc-avr"):
+        connect(where)
+    assert main(["check", "--port", where]) == 2
+    assert "apt install" in capsys.readouterr().err
 
 
 def test_a_port_that_is_not_there():

@@ -16,8 +16,7 @@ from softgrip.logs.reader import read_log
 from softgrip.provenance import data_folder
 from softgrip.rig.connect import connect
 from softgrip.rig.live import LiveRun
-from softgrip.rig.live_rig import check_simulated, listens
-from softgrip.rig.simulated import SimulatedConnection
+from softgrip.rig.simulated import SimulatedRig
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.simulation import Simulation
@@ -45,7 +44,7 @@ def run_of(rig, path, name="staircase", **options):
 
 def test_the_staircase_is_that_of_the_chapter(path):
     # The kept log was made by another loop, so that it is an oracle; its references move.
-    with SimulatedConnection(Simulation(design_1(), seed=SEED)) as rig:
+    with SimulatedRig(Simulation(design_1(), seed=SEED)) as rig:
         run = run_of(rig, path, real_time=False)
         run.start()
         assert run.wait(SOON).samples == 624
@@ -119,7 +118,7 @@ def test_the_stop_is_heard_while_a_simulated_run_is_on(path):
 def test_a_board_hears_the_stop_at_once(pty_board, path):
     port, board = pty_board
     with Board(port, emulated=True) as rig:
-        assert listens(rig)
+        assert rig.real_time
         run = run_of(rig, path)
         update, within, go_on = run.update, Event(), Event()
 
@@ -179,7 +178,7 @@ def test_the_firmware_hears_the_stop_while_it_homes(path):
 
 def test_a_line_in_virtual_time_is_told_between_periods(stub, path):
     with Board(stub) as rig:
-        assert not listens(rig)
+        assert not rig.real_time
         run = run_of(rig, path)
         run.emergency_stop()
         assert "estop" not in stub.received
@@ -216,9 +215,6 @@ def test_a_run_that_goes_on_is_not_over(path):
 def test_what_cannot_be_driven_is_refused(path):
     with connect("simulated:gripper") as gripper, pytest.raises(InvalidInputError, match="period"):
         run_of(gripper, path)
-    replay = connect(f"replay:{KEPT}")
-    with pytest.raises(InvalidInputError, match="the simulated rig"):
-        check_simulated(replay)
 
 
 def test_a_log_is_named_after_what_was_run(tmp_path):

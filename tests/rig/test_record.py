@@ -23,7 +23,7 @@ from softgrip.logs.reader import read_log
 from softgrip.provenance import data_folder
 from softgrip.rig.connect import connect
 from softgrip.rig.record import record, show_progress
-from softgrip.rig.simulated import SimulatedConnection, simulated_gripper
+from softgrip.rig.simulated import SimulatedRig, simulated_gripper
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.simulation import Simulation
@@ -44,7 +44,7 @@ def rig(stub):
 
 
 def finger():
-    return SimulatedConnection(Simulation(design_1(), seed=SEED))
+    return SimulatedRig(Simulation(design_1(), seed=SEED))
 
 
 class After:

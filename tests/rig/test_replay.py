@@ -12,7 +12,7 @@ from softgrip.logs.reader import read_log
 from softgrip.provenance import data_folder
 from softgrip.rig.connect import connect
 from softgrip.rig.record import record
-from softgrip.rig.replay import ReplayConnection
+from softgrip.rig.replay import Replay
 
 FOLDER = data_folder() / "simulated"
 PATH = FOLDER / "pid-full.csv"
@@ -20,7 +20,7 @@ PATH = FOLDER / "pid-full.csv"
 
 @pytest.fixture
 def replay():
-    with ReplayConnection(PATH) as opened:
+    with Replay(PATH) as opened:
         opened.home()
         yield opened
 

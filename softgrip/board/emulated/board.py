@@ -40,13 +40,12 @@ class EmulatedBoard:
     def __init__(
         self, set_up: SetUp = SetUp.GRIPPER, *, valve: bool = False, position: int = 200
     ) -> None:
-        self.elf = firmware(set_up, valve=valve)
-        self._c = library()
+        self._board = None  # first: `__del__` follows a firmware that cannot be built
+        self.elf, self._c = firmware(set_up, valve=valve), library()
         self._volts = [0.5 if k == PRESSURE else 0.0 for k in range(len(CHANNELS))]
         self._switch, self._before = Switch.WORKS, 0
         self._old_edges: list[tuple[np.ndarray, np.ndarray]] = []
         self._bytes, self._times = ctypes.create_string_buffer(ROOM), (ctypes.c_double * ROOM)()
-        self._board = None
         self._start(position)
 
     def _start(self, position: int) -> None:

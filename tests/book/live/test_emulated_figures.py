@@ -10,15 +10,13 @@ from book.chapter_4.controllers import controller
 from book.chapter_6.controllers import gripper_controller, own_model, target_angles
 from book.companion.exhibit import exhibit
 from book.companion.simulated_logs import STEP
-from softgrip.board.driver import Board
 from softgrip.control.rig_controller import Tracking
-from softgrip.gripper.internal_model import PERIOD
 from softgrip.logs.fingers import fingers_of
 from softgrip.logs.reader import read_log
 from softgrip.logs.steps import step_log_figures
 from softgrip.provenance import data_file
+from softgrip.rig.connect import connect
 from softgrip.rig.record import record
-from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.units import DEG
 from tests.board.emulated import needs_emulator
 
@@ -48,11 +46,9 @@ def drawn(title, logs):
     ],
 )
 def test_a_step_of_the_finger(title, law, kept_logs, tmp_path):
-    from softgrip.board.emulated.link import emulated_finger
-
     path, (other, own) = tmp_path / "step.csv", map(kept, kept_logs)
     duration = float(read_log(own)["time"][-1])
-    with emulated_finger() as rig:
+    with connect("emulated") as rig:
         rig.home()
         record(rig, Tracking(law(), STEP), duration, path, reference=STEP)
     # Two runs of one finger: the sensor's noise, 2 deg, in both, and a start that the board's
@@ -64,12 +60,9 @@ def test_a_step_of_the_finger(title, law, kept_logs, tmp_path):
 
 
 def test_two_fingers_on_one_pump(tmp_path):
-    from softgrip.board.emulated.link import EmulatedFingers, gripper
-
     path, targets = tmp_path / "slow.csv", target_angles(own_model())
-    pump = printed_gripper().pump
     duration = float(read_log(kept("gripper-slow-1"))["time"][-1])
-    with Board(EmulatedFingers(gripper()), fingers=2, period=PERIOD, pump=pump) as rig:
+    with connect("emulated:gripper") as rig:
         rig.home()
         record(rig, gripper_controller("H 2/s"), duration, path, reference=targets)
     # From run to run the fingers differ too.

@@ -11,8 +11,7 @@ from book.companion.show import show
 from book.live import protocol as rig_protocol
 from book.live.acceptance import bands_table
 from book.live.emulated import emulated_table, measured_firmware
-from book.live.finished import FinishedRun
-from book.live.panel import ControlPanel
+from book.live.panel import ControlPanel, FinishedRun
 from softgrip.board.driver import HUNG_AFTER
 from softgrip.board.firmware.config import AT_START, TABLES
 from softgrip.board.firmware.header import markdown

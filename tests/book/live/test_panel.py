@@ -7,8 +7,7 @@ import matplotlib.pyplot as plt
 import pytest
 
 from book.live.experiments import experiments
-from book.live.finished import FinishedRun
-from book.live.panel import ControlPanel, control_panel
+from book.live.panel import ControlPanel, FinishedRun, control_panel
 from book.live.plot import LivePlot
 from softgrip.board.driver import Board
 from softgrip.board.protocol import Flag
@@ -46,7 +45,7 @@ def test_nothing_moves_before_a_click(panel, tmp_path):
     assert isinstance(panel, ControlPanel)
     assert not [one for one in threading.enumerate() if one.name == "softgrip run"]
     assert panel.run is None
-    assert panel.connection.rig.time == 0
+    assert panel.rig.rig.time == 0
     assert [*tmp_path.iterdir()] == []
     assert "nothing moves before a click" in panel.words.value
 
@@ -66,13 +65,13 @@ def test_stop_clear_and_start_again(panel):
     assert panel.words.value == '<div role="status">cleared</div>'
     panel.start.click()
     assert panel.run is not first
-    assert panel.run.running
+    assert panel.run.is_alive()
     panel.stop.click()
     over(panel)
 
 
 def test_two_panels_of_one_rig_do_not_drive_it_both(panel, tmp_path):
-    other = ControlPanel(panel.connection, tmp_path / "other")
+    other = ControlPanel(panel.rig, tmp_path / "other")
     begin(panel)
     other.start.click()
     assert "no other run" in other.words.value
@@ -123,7 +122,7 @@ def test_to_close_ends_a_run_for_good(pty_board, tmp_path):
     panel = ControlPanel(Board(port, emulated=True), tmp_path, rest=0.0)
     begin(panel)
     panel.close()
-    assert not panel.run.running
+    assert not panel.run.is_alive()
     # Nobody opens the line again: it would be tried five times a second, and the heart would beat.
     until(lambda: board.now() > board.heard + 1.0)
     assert board.speed == 0
