@@ -15,7 +15,7 @@ from softgrip.control.rig_controller import CommandSequence, RigController
 from softgrip.errors import InvalidInputError
 from softgrip.logs.fingers import column
 from softgrip.logs.queued_writer import RunLog, plain
-from softgrip.rig.interface import Connection
+from softgrip.rig.interface import Rig
 from softgrip.simulator.motor import one_speed
 from softgrip.simulator.sensors import Measurement
 
@@ -59,7 +59,7 @@ def show_progress(done: float, duration: float) -> None:
 
 
 def record(
-    connection: Connection,
+    connection: Rig,
     controller: RigController | ArrayLike,
     duration: float,
     path: Path | str,
@@ -147,7 +147,7 @@ def record(
     return Recording(Path(path), samples, tuple(lost), log.failure)
 
 
-def _rest(connection: Connection, log: RunLog) -> None:
+def _rest(connection: Rig, log: RunLog) -> None:
     try:
         connection.stop()
     except BoardError as error:  # a board that does not hear has stopped the motor by itself

@@ -18,19 +18,19 @@ from softgrip.simulator.sensors import Measurement
 from softgrip.simulator.simulation import Simulation
 
 
-def simulated_finger(*, seed: int = 0) -> "SimulatedConnection":
+def simulated_finger(*, seed: int = 0) -> "SimulatedRig":
     """Return the finger of Chapters 3 to 5, sampled each 25 ms."""
-    return SimulatedConnection(Simulation(design_1(), seed=seed), f"data/{FILE}", seed)
+    return SimulatedRig(Simulation(design_1(), seed=seed), f"data/{FILE}", seed)
 
 
-def simulated_gripper(*, seed: int = 0) -> "SimulatedConnection":
+def simulated_gripper(*, seed: int = 0) -> "SimulatedRig":
     """Return the two fingers of Section 6.4, sampled each 100 ms, left finger first."""
     rig = Simulation(printed_gripper(), seed=seed, period=PERIOD)
-    return SimulatedConnection(rig, f"data/{GRIPPER_FILE}", seed)
+    return SimulatedRig(rig, f"data/{GRIPPER_FILE}", seed)
 
 
-class SimulatedConnection:
-    """A simulated rig of one run as a `Connection`.
+class SimulatedRig:
+    """A simulated rig of one run as a `Rig`.
 
     Parameters
     ----------
@@ -48,6 +48,8 @@ class SimulatedConnection:
     ...     finger.advance(5.0).angle.shape
     (1, 1)
     """
+
+    real_time = False
 
     def __init__(
         self,
@@ -70,7 +72,7 @@ class SimulatedConnection:
         return self._last
 
     def advance(self, command: ArrayLike) -> Measurement:
-        """Hold a motor speed for one period; see `Connection.advance`."""
+        """Hold a motor speed for one period; see `Rig.advance`."""
         speed = self._interlock.permitted(command, float(self._last.pressure[0]))
         self._last = self.rig.advance(speed)
         return self._last
