@@ -31,13 +31,13 @@ def panel(tmp_path):
 def begin(panel):
     panel.start.click()
     assert panel.run is not None, panel.words.value
-    until(lambda: len(panel.run.samples) > 8 or not panel.run.running)
-    assert panel.run.running, panel.run.error
+    until(lambda: len(panel.run.samples) > 8 or not panel.run.is_alive())
+    assert panel.run.is_alive(), panel.run.error
 
 
 def over(panel):
     panel.run.join(SOON)
-    assert not panel.run.running, panel.words.value
+    assert not panel.run.is_alive(), panel.words.value
     until(lambda: not panel.start.disabled)
 
 
