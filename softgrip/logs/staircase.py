@@ -101,16 +101,20 @@ def mean_edge(
     if at.size == 0:
         raise InvalidInputError("reference", expected="a change", got="none")
     known = np.broadcast_to(measured, r.shape)
-    known = np.append(known[at - 1] & known[at], True)
-    holds = np.diff([*at, r.size])[known[:-1] & known[1:]]
+    known = known[at - 1] & known[at]
+    holds = np.diff(at)[known[:-1] & known[1:]]
+    if at.size == 1 and known[0]:
+        holds = np.array([r.size - at[0]])
     if holds.size == 0:
         raise InvalidInputError("measured", expected="a hold from end to end", got="none")
     shortest = int(holds.min())
     if shortest < 2:
         raise InvalidInputError("reference", expected="levels that are held", got="a ramp")
-    change = r[at] - r[at - 1]
-    rows = y[np.minimum(at[:, None] + np.arange(shortest), y.size - 1)]
-    share = ((rows - r[at - 1][:, None]) / change[:, None]).mean(axis=0)
+    # The end of the log may cut the last hold short, which must not shorten all others.
+    whole = at[at + shortest <= r.size]
+    change = r[whole] - r[whole - 1]
+    rows = y[whole[:, None] + np.arange(shortest)]
+    share = ((rows - r[whole - 1][:, None]) / change[:, None]).mean(axis=0)
     return t[at[0] : at[0] + shortest] - t[at[0]], share
 
 
