@@ -51,5 +51,6 @@ def skip(_app: Sphinx, what: str, name: str, found: object, _skip: bool, _: obje
 
 def setup(app: Sphinx) -> None:
     """Add the directive."""
+    app.setup_extension("sphinx.ext.autodoc")
     app.add_directive("api", Api)
     app.connect("autodoc-skip-member", skip)

@@ -244,6 +244,7 @@ def add_links(app: Sphinx, doctree: nodes.document, page: str) -> None:
 
 def setup(app: Sphinx) -> None:
     """Add the directives and connect the links to the stages of a build."""
+    app.setup_extension("sphinx.ext.viewcode")
     app.add_directive("equations", Equations)
     app.add_directive("equation-tests", EquationTests)
     app.connect("viewcode-find-source", source_of_tests)
