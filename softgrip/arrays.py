@@ -40,19 +40,13 @@ def check_stretch(stretch: float | Floats) -> None:
 def tensile_curve(strain: ArrayLike, stress: ArrayLike, *, at_least: int) -> tuple[Floats, Floats]:
     """Check a measured curve of a pull test and return it as two float arrays.
 
-    Parameters
-    ----------
-    strain
-        Engineering strain, shape (N,), finite, >= 0, not all equal.
-    stress
-        Engineering stress, shape (N,), Pa, finite, at least one value above zero.
-    at_least
-        Smallest N that the caller can use.
+    Args:
+        strain: Engineering strain, shape (N,), finite, >= 0, not all equal.
+        stress: Engineering stress, shape (N,), Pa, finite, at least one value above zero.
+        at_least: Smallest N that the caller can use.
 
-    Raises
-    ------
-    InvalidInputError
-        If one of these does not hold.
+    Raises:
+        InvalidInputError: If one of these does not hold.
     """
     e, s = np.asarray(strain, dtype=np.float64), np.asarray(stress, dtype=np.float64)
     if e.ndim != 1 or e.shape != s.shape or e.size < at_least:
@@ -79,17 +73,11 @@ def tensile_curve(strain: ArrayLike, stress: ArrayLike, *, at_least: int) -> tup
 def chunks(runs: int, bytes_per_run: float, *, limit: float = 64e6) -> Iterator[slice]:
     """Cut a batch into pieces whose output fits into memory.
 
-    Parameters
-    ----------
-    runs
-        Number of runs, >= 1.
-    bytes_per_run
-        Size of the output of one run.
-    limit
-        Largest output held at a time, bytes.
+    Args:
+        runs: Number of runs, >= 1.
+        bytes_per_run: Size of the output of one run.
+        limit: Largest output held at a time, bytes.
 
-    Examples
-    --------
     >>> [(part.start, part.stop) for part in chunks(5, 8.0, limit=16.0)]
     [(0, 2), (2, 4), (4, 5)]
     """

@@ -25,10 +25,8 @@ def check_finite(**values: ArrayLike) -> None:
 def record(*, at_least: int, **columns: ArrayLike) -> tuple[Floats, ...]:
     """Return the columns of a record as float arrays of one shape (N,), N >= `at_least`.
 
-    Raises
-    ------
-    InvalidInputError
-        If the shapes differ, a record is too short, or a value is not finite.
+    Raises:
+        InvalidInputError: If the shapes differ, a record is too short, or a value is not finite.
     """
     arrays = tuple(np.asarray(column, dtype=np.float64) for column in columns.values())
     shape = arrays[0].shape

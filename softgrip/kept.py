@@ -61,26 +61,16 @@ def _read(kind: Any, texts: Iterator[str]) -> Any:
 class Kept(Generic[Row]):
     """A kept table.
 
-    Attributes
-    ----------
-    file
-        Path below ``data/``.
-    row
-        Dataclass of a row, of numbers, strings and such dataclasses.
-    make
-        Makes the rows anew.
-    source
-        What does it, such as the command; see `main`.
-    notes
-        Further lines of the header, or what makes them.
-    columns
-        Their names, with units; those of the row's fields without it.
-    number
-        Format of its floats.
-    exact
-        Columns of floats that are written in full: what was asked, not what was found.
-    provenance
-        Class of what is kept.
+    Attributes:
+        file: Path below ``data/``.
+        row: Dataclass of a row, of numbers, strings and such dataclasses.
+        make: Makes the rows anew.
+        source: What does it, such as the command; see `main`.
+        notes: Further lines of the header, or what makes them.
+        columns: Their names, with units; those of the row's fields without it.
+        number: Format of its floats.
+        exact: Columns of floats that are written in full: what was asked, not what was found.
+        provenance: Class of what is kept.
     """
 
     file: str
@@ -96,10 +86,8 @@ class Kept(Generic[Row]):
     def read(self, path: Path | None = None) -> tuple[Row, ...]:
         """Read the table, or another file of its form.
 
-        Raises
-        ------
-        DataFileError
-            If its columns are others.
+        Raises:
+            DataFileError: If its columns are others.
         """
         source = path or data_file(self.file).path
         names, *rows = cells(source)

@@ -52,20 +52,13 @@ def data_folder() -> Path:
 def data_file(name: str) -> DataFile:
     """Find a file of ``data/`` and read its provenance.
 
-    Parameters
-    ----------
-    name
-        Path below ``data/``, with forward slashes.
+    Args:
+        name: Path below ``data/``, with forward slashes.
 
-    Raises
-    ------
-    InvalidInputError
-        If there is no such file.
-    DataFileError
-        If its header does not state provenance and source.
+    Raises:
+        InvalidInputError: If there is no such file.
+        DataFileError: If its header does not state provenance and source.
 
-    Examples
-    --------
     >>> data_file("materials/table_5_1.csv").provenance
     <Provenance.PRINTED: 'printed'>
     """
@@ -78,10 +71,8 @@ def data_file(name: str) -> DataFile:
 def describe(path: Path) -> DataFile:
     """Read the provenance of any file that states it, such as a log of a reader's own rig.
 
-    Raises
-    ------
-    DataFileError
-        If there is no such file, or its header does not state provenance and source.
+    Raises:
+        DataFileError: If there is no such file, or its header does not state provenance and source.
     """
     if not path.is_file():
         raise DataFileError(path, expected="a file", got="none")

@@ -33,16 +33,11 @@ MENTION = re.compile(r"Eqs?\. \(\d\.\d+\)(?:(?:,| and|, and) \(\d\.\d+\))*")
 class Place:
     """A function, method or class of the package, or a test.
 
-    Attributes
-    ----------
-    module
-        With its packages.
-    name
-        With its class, if it has one.
-    words
-        First line of its docstring; empty if it has none.
-    numbers
-        Of the equations that it owns or tests.
+    Attributes:
+        module: With its packages.
+        name: With its class, if it has one.
+        words: First line of its docstring; empty if it has none.
+        numbers: Of the equations that it owns or tests.
     """
 
     module: str

@@ -114,20 +114,14 @@ def _install(package: Package, place: Path) -> None:
 def ensure(folder: Path) -> bool:
     """Make sure that the scripts lie in a folder; fetch them if they do not.
 
-    Parameters
-    ----------
-    folder
-        What is laid beside the pages; emptied first if it holds other versions.
+    Args:
+        folder: What is laid beside the pages; emptied first if it holds other versions.
 
-    Returns
-    -------
-    bool
-        False where the npm registry cannot be reached: the folder is then left empty.
+    Returns:
+        bool: False where the npm registry cannot be reached: the folder is then left empty.
 
-    Raises
-    ------
-    DataFileError
-        If an archive is not, to the bit, the one that was pinned.
+    Raises:
+        DataFileError: If an archive is not, to the bit, the one that was pinned.
     """
     wanted = json.dumps([[p.name, p.version, p.integrity, p.files] for p in PACKAGES])
     stamp = folder / STAMP

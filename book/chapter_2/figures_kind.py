@@ -38,10 +38,8 @@ PRINTED_ACCURACIES = (
 def draw_neighbours(scores: Mapping[int, Sequence[SplitScore]]) -> Figure:
     """Draw training and testing accuracy over k: the mean over the splits, and their range.
 
-    Parameters
-    ----------
-    scores
-        By k, one for each split, such as from `kind_evaluation.split_score`.
+    Args:
+        scores: By k, one for each split, such as from `kind_evaluation.split_score`.
     """
     drawn, axes = sheet(3.2)
     ks = sorted(scores)
@@ -58,12 +56,9 @@ def draw_neighbours(scores: Mapping[int, Sequence[SplitScore]]) -> Figure:
 def draw_confusions(truth: ArrayLike, told: Mapping[str, ArrayLike]) -> Figure:
     """Draw a confusion matrix for each classifier, side by side; counts, and shares of a row.
 
-    Parameters
-    ----------
-    truth
-        Kinds of the contacts, shape (N,).
-    told
-        What each classifier said, by its name, shape (N,) each.
+    Args:
+        truth: Kinds of the contacts, shape (N,).
+        told: What each classifier said, by its name, shape (N,) each.
     """
     drawn = Figure(figsize=(WIDTH, 3.0))
     every = drawn.subplots(1, len(told), sharey=True, squeeze=False)[0]

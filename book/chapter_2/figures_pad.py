@@ -68,10 +68,8 @@ def outline(item: PadObject, pose: Pose) -> Floats:
 def draw_elements(axes: Any, responses: Floats, profile: Floats | None = None) -> Any:
     """Draw the elements as squares, white at rest to dark red, with the responses that are felt.
 
-    Returns
-    -------
-    ScalarMappable
-        What a colour bar takes.
+    Returns:
+        ScalarMappable: What a colour bar takes.
     """
     scale = ScalarMappable(cmap=COLOURS)
     scale.set_clim(0, 1)

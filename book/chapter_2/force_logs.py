@@ -83,20 +83,13 @@ def put_down(
 ) -> Reading:
     """Put weights on the layer one after the other, and read each once.
 
-    Parameters
-    ----------
-    forces
-        N, shape (weights,), exact: what is recorded is the weight itself.
-    seed, run
-        Of chance.
-    layer
-        Its parameters; None for those of `ForceLayer`.
-    seating
-        Spread of what the layer feels of a weight; None for that of calibration weights.
-    age
-        h, when the first weight is put down.
-    unloaded
-        s, after each weight; a number or shape (weights,).
+    Args:
+        forces: N, shape (weights,), exact: what is recorded is the weight itself.
+        seed, run: Of chance.
+        layer: Its parameters; None for those of `ForceLayer`.
+        seating: Spread of what the layer feels of a weight; None for that of calibration weights.
+        age: h, when the first weight is put down.
+        unloaded: s, after each weight; a number or shape (weights,).
     """
     layer = layer or ForceLayer()
     true = np.asarray(forces, dtype=float)
@@ -133,12 +126,9 @@ def load_and_unload(*, seed: int, run: int, layer: ForceLayer | None = None) -> 
 def long_run(age: float, *, seed: int, run: int, layer: ForceLayer | None = None) -> Reading:
     """Return an hour: the weights for the drift, twenty others, those for the drift again.
 
-    Parameters
-    ----------
-    age
-        h, since the calibration.
-    seed, run, layer
-        As of `put_down`.
+    Args:
+        age: h, since the calibration.
+        seed, run, layer: As of `put_down`.
     """
     forces = [*DRIFT_WEIGHTS, *LONG_WEIGHTS * 5, *DRIFT_WEIGHTS]
     ends = len(DRIFT_WEIGHTS)
@@ -181,10 +171,8 @@ class LayerLog:
 def simulate(name: str) -> LayerLog:
     """Make a log; `name` is a key of `RUNS`.
 
-    Raises
-    ------
-    UnknownNameError
-        If there is no such log.
+    Raises:
+        UnknownNameError: If there is no such log.
     """
     if name not in RUNS:
         raise UnknownNameError("log of the force layer", name, [*RUNS])
@@ -209,11 +197,9 @@ def file_of(name: str) -> str:
 def read(name: str) -> pd.DataFrame:
     """Read a kept log; `name` is a key of `RUNS`, or "long" for all the long ones.
 
-    Returns
-    -------
-    DataFrame
-        Time (s), counts, voltage (V) and weight (N); the object, where there is one; the start (h)
-        after the calibration, of long runs.
+    Returns:
+        DataFrame: Time (s), counts, voltage (V) and weight (N); the object, where there is one; the
+            start (h) after the calibration, of long runs.
     """
     if name == "long":
         runs = [read(f"long-{age:g}h").assign(**{"start [h]": age}) for age in AGES]

@@ -133,23 +133,17 @@ def calibrated() -> Floats:
 def hour_errors(time: Floats, voltage: Floats, force: Floats) -> pd.DataFrame:
     """Return the errors of the readings between the weights for the drift.
 
-    Parameters
-    ----------
-    time, voltage, force
-        s, V and N (true), shape (readings,), of an hour that begins and ends with
-        `DRIFT_WEIGHTS`.
+    Args:
+        time, voltage, force: s, V and N (true), shape (readings,), of an hour that begins and ends
+            with `DRIFT_WEIGHTS`.
 
-    Returns
-    -------
-    DataFrame
-        One row a reading: "time", h from the first reading; and the error, N, "without" any
-        correction, "repaired" by the line of Section 2.3, and with lines at both ends ("between"),
-        which is ours.
+    Returns:
+        DataFrame: One row a reading: "time", h from the first reading; and the error, N, "without"
+            any correction, "repaired" by the line of Section 2.3, and with lines at both ends
+            ("between"), which is ours.
 
-    Raises
-    ------
-    InvalidInputError
-        If the hour does not begin and end so: a row is missing there.
+    Raises:
+        InvalidInputError: If the hour does not begin and end so: a row is missing there.
     """
     count, reference = len(DRIFT_WEIGHTS), calibrated()
     for ends in (force[:count], force[-count:]):

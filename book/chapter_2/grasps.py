@@ -124,20 +124,14 @@ def held_share(name: str, friction: float = FRICTION) -> float:
 class GraspSummary:
     """What came of the simulated grasps of an object.
 
-    Attributes
-    ----------
-    overshoot
-        Of the measured force, median share of the desired one.
-    settling_time
-        From the open gripper until the measured force stays within `BAND`, s, median.
-    steady_error
-        Desired less measured force at rest, N, mean.
-    ripple
-        Deviation of the measured force at rest in time, N, mean.
-    force, force_deviation
-        True force at rest, N, mean and deviation over the grasps.
-    peak
-        Largest true force, N, mean.
+    Attributes:
+        overshoot: Of the measured force, median share of the desired one.
+        settling_time: From the open gripper until the measured force stays within `BAND`, s,
+            median.
+        steady_error: Desired less measured force at rest, N, mean.
+        ripple: Deviation of the measured force at rest in time, N, mean.
+        force, force_deviation: True force at rest, N, mean and deviation over the grasps.
+        peak: Largest true force, N, mean.
     """
 
     overshoot: float

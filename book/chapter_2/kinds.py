@@ -125,12 +125,9 @@ def kept(study: str) -> pd.DataFrame:
 def split_shares(classifier: str, part: str) -> "pd.Series[float]":
     """Return right answers of a classifier by contacts, one for each split.
 
-    Parameters
-    ----------
-    classifier
-        A key of `classifiers`.
-    part
-        "cross_validated" or "tested".
+    Args:
+        classifier: A key of `classifiers`.
+        part: "cross_validated" or "tested".
     """
     rows = kept("classifiers")
     rows = rows[rows["classifier"] == classifier]

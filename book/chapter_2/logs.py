@@ -36,16 +36,11 @@ BETWEEN = 10.0
 class PadTest:
     """What a log of the pad holds.
 
-    Attributes
-    ----------
-    objects
-        What is pressed on it.
-    repeats
-        Contacts of each.
-    seed
-        Of order, places, forces, surfaces and noise.
-    words
-        What the log shows.
+    Attributes:
+        objects: What is pressed on it.
+        repeats: Contacts of each.
+        seed: Of order, places, forces, surfaces and noise.
+        words: What the log shows.
     """
 
     objects: tuple[PadObject, ...]
@@ -85,14 +80,10 @@ ROUND = 9
 def write_pad_log(name: str, path: Path, source: str) -> None:
     """Write one simulated log; the path must be free.
 
-    Parameters
-    ----------
-    name
-        A key of `PAD_TESTS`.
-    path
-        Of the log.
-    source
-        The command that makes it.
+    Args:
+        name: A key of `PAD_TESTS`.
+        path: Of the log.
+        source: The command that makes it.
     """
     test, parameters = PAD_TESTS[name], PadParameters()
     pad = make_pad(parameters, PAD_SEED)

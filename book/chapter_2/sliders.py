@@ -31,12 +31,9 @@ def outlines(element: Element, force: float) -> tuple[Floats, Floats]:
 
     Each slice is shortened by its own stress as in Eq. (2.1), and widened by Poisson's ratio.
 
-    Parameters
-    ----------
-    element
-        With a flat top.
-    force
-        N, >= 0.
+    Args:
+        element: With a flat top.
+        force: N, >= 0.
     """
     height = np.linspace(0, element.height, 401)
     area = cross_section(element, height)
@@ -50,14 +47,10 @@ def outlines(element: Element, force: float) -> tuple[Floats, Floats]:
 def draw_element(shape: Shape, load: float, cut: float) -> Figure:
     """Draw an element 6 mm wide and 3 mm high before and under a load.
 
-    Parameters
-    ----------
-    shape
-        "cylinder", "hemisphere" or "pyramid".
-    load
-        N, >= 0.
-    cut
-        Width of the flat top as a part of the base's, above 0; a cylinder has 1 in any case.
+    Args:
+        shape: "cylinder", "hemisphere" or "pyramid".
+        load: N, >= 0.
+        cut: Width of the flat top as a part of the base's, above 0; a cylinder has 1 in any case.
     """
     element = Element(shape, cut=1.0 if shape == "cylinder" else cut)
     before, after = outlines(element, load)
@@ -88,10 +81,8 @@ def draw_bandwidth(bandwidth: float) -> Figure:
 
     The title says its error on points, and on whole weights, that are left out.
 
-    Parameters
-    ----------
-    bandwidth
-        sigma of Eq. (2.7), V, > 0.
+    Args:
+        bandwidth: sigma of Eq. (2.7), V, > 0.
     """
     voltage, force = weight_points()
     model = NadarayaWatson(bandwidth).fit(voltage[:, None], force)
@@ -123,14 +114,10 @@ def _classifier() -> FastKind:
 def draw_touch(item: str, x: float, angle: float) -> Figure:
     """Draw a smooth object on an ideal simulated pad, 0.15 N, and what the classifier says.
 
-    Parameters
-    ----------
-    item
-        Name of an object of `pad_objects`.
-    x
-        Place of its middle along the pad, mm.
-    angle
-        Of its length, deg.
+    Args:
+        item: Name of an object of `pad_objects`.
+        x: Place of its middle along the pad, mm.
+        angle: Of its length, deg.
     """
     found, pose = pad_object(item), Pose((x * MM, 0.0), angle * DEG)
     try:

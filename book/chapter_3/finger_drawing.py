@@ -16,12 +16,9 @@ RUBBER = "#F2D7C4"
 def draw_section(axes: Any, section: Section) -> None:
     """Draw Figure 3.3 (c) and (d): rubber, chamber and neutral surface, in mm.
 
-    Parameters
-    ----------
-    axes
-        Of matplotlib, with equal scales.
-    section
-        Its dimensions, m.
+    Args:
+        axes: Of matplotlib, with equal scales.
+        section: Its dimensions, m.
     """
     a, b, w, t = (x / MM for x in (section.top, section.bottom, section.width, section.wall))
     axes.add_patch(Rectangle((-w / 2, -b), w, a + b, facecolor=RUBBER, edgecolor="black"))
@@ -36,8 +33,6 @@ def bent_outline(section: Section, length: float, angle: float, points: int = 60
     It hangs from the origin, along the x axis when straight, and bends downwards; the neutral
     surface keeps the length given.
 
-    Examples
-    --------
     >>> straight = bent_outline(Section(0.02, 0.004, 0.03, 0.0015), 0.1, 0.0, points=2)
     >>> straight.tolist()
     [[0.0, 0.02], [0.1, 0.02], [0.1, -0.004], [0.0, -0.004]]

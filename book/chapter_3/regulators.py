@@ -39,18 +39,12 @@ with more of it the derivatives are noisier."""
 class Row:
     """One line of the file.
 
-    Attributes
-    ----------
-    design
-        "printed" or "fast".
-    p, q1, q2, q3, R
-        Weights.
-    natural_frequency, damping_ratio
-        Of the model, rad/s and dimensionless.
-    input_gain
-        As of `lqr.input_gain` with a set speed of 5 rev/s, rad/s^3.
-    k1, k2, k3
-        K of Eq. (3.30).
+    Attributes:
+        design: "printed" or "fast".
+        p, q1, q2, q3, R: Weights.
+        natural_frequency, damping_ratio: Of the model, rad/s and dimensionless.
+        input_gain: As of `lqr.input_gain` with a set speed of 5 rev/s, rad/s^3.
+        k1, k2, k3: K of Eq. (3.30).
     """
 
     design: str
@@ -98,10 +92,8 @@ KEPT = Kept(FILE, Row, rows, "python -m book.chapter_3.regulators")
 def regulator(design: str) -> Controller:
     """Return a regulator with its kept gains, from angles to motor speed.
 
-    Raises
-    ------
-    UnknownNameError
-        If there is no such design.
+    Raises:
+        UnknownNameError: If there is no such design.
     """
     known = {row.design: row for row in KEPT.read()}
     if design not in known:

@@ -53,12 +53,9 @@ def _draw(finger: Finger, pressure: float, title: str, axis: tuple[float, float]
 def draw_finger(top: float, bottom: float, wall: float, n: float = ANGLE_POWER) -> Figure:
     """Draw a section 30 mm wide, its torque and its bending over pressure.
 
-    Parameters
-    ----------
-    top, bottom, wall
-        a, b and t, mm.
-    n
-        Fractional power.
+    Args:
+        top, bottom, wall: a, b and t, mm.
+        n: Fractional power.
     """
     section = Section(top * MM, bottom * MM, 30 * MM, wall * MM)
     title = f"a {top:g}, b {bottom:g}, t {wall:g} mm"
@@ -68,16 +65,11 @@ def draw_finger(top: float, bottom: float, wall: float, n: float = ANGLE_POWER) 
 def draw_best(low: float, pressure: float, modulus: float, width: float = 0.4) -> Figure:
     """Draw the best section for a frequency band, as Eq. (3.20) finds it, n = 1.045.
 
-    Parameters
-    ----------
-    low
-        Least frequency of the band, rad/s.
-    pressure
-        MPa.
-    modulus
-        Young's modulus, MPa.
-    width
-        Of the band, rad/s.
+    Args:
+        low: Least frequency of the band, rad/s.
+        pressure: MPa.
+        modulus: Young's modulus, MPa.
+        width: Of the band, rad/s.
     """
     problem = DesignProblem(
         pressure=pressure * MPa,
@@ -114,12 +106,9 @@ def _model() -> IdentifiedModel:
 def draw_lqr(p: float, q2: float, step: float) -> Figure:
     """Draw a step of the regulator on the printed model, with the motor's limit.
 
-    Parameters
-    ----------
-    p, q2
-        Of Eq. (3.29); q_1 = 1, q_3 = 0 and R = 1.
-    step
-        deg.
+    Args:
+        p, q2: Of Eq. (3.29); q_1 = 1, q_3 = 0 and R = 1.
+        step: deg.
     """
     model = _model()
     finger, _ = designed_on("printed", model)

@@ -25,10 +25,8 @@ def rig_with(section: Section) -> RigParameters:
     torque by Eq. (3.4), the stiffness by I_n of Eq. (3.8), the inertia by the rubber's mass, the
     air by the chamber's area; the damping ratio stays.
 
-    Raises
-    ------
-    InvalidInputError
-        If the section is no chamber or its torque is not positive.
+    Raises:
+        InvalidInputError: If the section is no chamber or its torque is not positive.
     """
     check_section(section)
     known = printed_section("Opt. parameters")
@@ -55,12 +53,9 @@ def rig_with(section: Section) -> RigParameters:
 def identified_step(rig: RigParameters, *, angle: float = OPERATING_ANGLE) -> Identified:
     """Identify the mean of seven simulated steps, pressure to angle, as Section 3.4 does.
 
-    Parameters
-    ----------
-    rig
-        Its parameters.
-    angle
-        At which the median run ends, rad.
+    Args:
+        rig: Its parameters.
+        angle: At which the median run ends, rad.
     """
     test = simulate_step_test(rig, travel_to(rig, angle), runs=RUNS, seed=SEED)
     return identify(test.time, test.pressure, test.angle, initial_input=0.0)

@@ -47,14 +47,10 @@ def blocked_torque(
 ) -> Floats:
     """Return the torque of Eq. (3.24), N m: the force on the scale, as it reads, times the length.
 
-    Parameters
-    ----------
-    finger
-        Held straight, so that its spring is at rest.
-    pressure
-        Gauge, Pa, >= 0, any shape.
-    buckling_torque
-        The torque that the finger's structure holds, N m.
+    Args:
+        finger: Held straight, so that its spring is at rest.
+        pressure: Gauge, Pa, >= 0, any shape.
+        buckling_torque: The torque that the finger's structure holds, N m.
     """
     pushed = np.minimum(finger.torque_per_pressure * _gauge(pressure), buckling_torque)
     return np.asarray(np.rint(pushed / LENGTH / SCALE) * SCALE * LENGTH)
@@ -65,17 +61,11 @@ def settled_angles(
 ) -> Floats:
     """Return the angle at rest of several runs, rad, shape (runs, N).
 
-    Parameters
-    ----------
-    rig
-        Its finger, and how runs differ.
-    pressure
-        Gauge, Pa, >= 0, shape (N,).
-    runs, seed
-        As of `Simulation`.
+    Args:
+        rig: Its finger, and how runs differ.
+        pressure: Gauge, Pa, >= 0, shape (N,).
+        runs, seed: As of `Simulation`.
 
-    Examples
-    --------
     >>> from softgrip.simulator.calibration import design_1
     >>> from softgrip.units import DEG
     >>> alike = settled_angles(design_1(spread=False), [0.15e6], runs=1)

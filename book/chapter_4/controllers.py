@@ -21,17 +21,12 @@ Name = Literal["actuator", "actuator by plunger", "full"]
 def controller(name: Name, stage: str = "tuned") -> Controller:
     """Return a controller with its kept gains, from angles to motor speed.
 
-    Parameters
-    ----------
-    name
-        Which.
-    stage
-        Of the tuning; see `pid_gains`.
+    Args:
+        name: Which.
+        stage: Of the tuning; see `pid_gains`.
 
-    Raises
-    ------
-    InvalidInputError
-        If the name is not one of `Name`.
+    Raises:
+        InvalidInputError: If the name is not one of `Name`.
     """
     if name not in get_args(Name):
         raise InvalidInputError("name", expected=f"one of {get_args(Name)}", got=name)

@@ -29,14 +29,10 @@ LOW_PRESSURE = 20e3
 class IdentifiedModel:
     """Eq. (4.14) and (4.5) with their numbers.
 
-    Attributes
-    ----------
-    finger
-        Natural frequency, damping ratio, gain.
-    capacity
-        C_i at low pressure, m^3/Pa.
-    pump_gain
-        ``A l / (2 pi C_i)``, Pa/s per rad/s.
+    Attributes:
+        finger: Natural frequency, damping ratio, gain.
+        capacity: C_i at low pressure, m^3/Pa.
+        pump_gain: ``A l / (2 pi C_i)``, Pa/s per rad/s.
     """
 
     finger: SecondOrder
@@ -47,17 +43,13 @@ class IdentifiedModel:
 def identify_finger(paths: Sequence[Path]) -> Identified:
     """Fit the finger to the mean of several logs of one step, measured pressure to measured angle.
 
-    Parameters
-    ----------
-    paths
-        Logs that start at rest and at atmospheric pressure, with the same times; at least one.
+    Args:
+        paths: Logs that start at rest and at atmospheric pressure, with the same times; at least
+            one.
 
-    Raises
-    ------
-    DataFileError
-        As of `read_alike`.
-    InvalidInputError
-        If the logs do not determine the model; as of `identify`.
+    Raises:
+        DataFileError: As of `read_alike`.
+        InvalidInputError: If the logs do not determine the model; as of `identify`.
     """
     logs = read_alike(paths)
     mean = {name: np.mean([log[name] for log in logs], axis=0) for name in ("pressure", "angle")}
@@ -69,18 +61,13 @@ def identify_capacity(path: Path, *, below: float = LOW_PRESSURE) -> float:
 
     It is the slope of the line through the origin from measured pressure to swept volume.
 
-    Parameters
-    ----------
-    path
-        Log of a push from atmospheric pressure; its header tells `area` and `lead`.
-    below
-        Gauge pressure at which to stop, Pa.
+    Args:
+        path: Log of a push from atmospheric pressure; its header tells `area` and `lead`.
+        below: Gauge pressure at which to stop, Pa.
 
-    Raises
-    ------
-    DataFileError
-        If the header lacks the pump, the pressure does not rise, or gaps or the start of the log
-        leave open what was swept.
+    Raises:
+        DataFileError: If the header lacks the pump, the pressure does not rise, or gaps or the
+            start of the log leave open what was swept.
     """
     log = read_log(path)
     swept = swept_volume(path, log, flow(log["command"], pump_of(path, log)))

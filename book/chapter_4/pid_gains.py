@@ -22,16 +22,11 @@ STAGES = ("ziegler-nichols", "tuned")
 class Row:
     """One line of the file.
 
-    Attributes
-    ----------
-    design, model
-        Key and value of `MODELS`.
-    stage
-        One of `STAGES`.
-    command
-        Unit of the command: Pa or rad/s.
-    kp, ki, kd, derivative_filter
-        As of `Gains`.
+    Attributes:
+        design, model: Key and value of `MODELS`.
+        stage: One of `STAGES`.
+        command: Unit of the command: Pa or rad/s.
+        kp, ki, kd, derivative_filter: As of `Gains`.
     """
 
     design: str
@@ -76,13 +71,9 @@ KEPT = Kept(FILE, Row, rows, "python -m book.chapter_4.pid_gains", _designed_on)
 def pid_gains(design: str, stage: str = "tuned") -> Gains:
     """Return kept gains.
 
-    Raises
-    ------
-    UnknownNameError
-        If there is no such design or stage.
+    Raises:
+        UnknownNameError: If there is no such design or stage.
 
-    Examples
-    --------
     >>> pid_gains("full").kp > 0
     True
     """

@@ -28,14 +28,10 @@ AREAS = dict(zip(("60 mL", "200 mL"), TABLE_4_1["area"], strict=True))
 def draw_pump(syringe: str, lead: float, speed: float) -> Figure:
     """Draw the pressure of a full syringe by Eq. (4.5) and by the exact gas law.
 
-    Parameters
-    ----------
-    syringe
-        "60 mL" or "200 mL".
-    lead
-        mm.
-    speed
-        Motor speed, rev/s.
+    Args:
+        syringe: "60 mL" or "200 mL".
+        lead: mm.
+        speed: Motor speed, rev/s.
     """
     pushed = flow(speed * REV, Pump(AREAS[syringe], lead * MM))
     full = VOLUMES[syringe]
@@ -58,10 +54,8 @@ def draw_pump(syringe: str, lead: float, speed: float) -> Figure:
 def draw_filter(noise: float) -> Figure:
     """Draw what the filter holds of a simulated push, with its capacity noise scaled.
 
-    Parameters
-    ----------
-    noise
-        Factor on the estimated noise of the elastance.
+    Args:
+        noise: Factor on the estimated noise of the elastance.
     """
     found = compare(kept_log("push-a"), noise_factor=noise)
     seen, std = found.estimated.capacity, found.estimated.capacity_std
@@ -82,14 +76,10 @@ def draw_filter(noise: float) -> Figure:
 def draw_sizing(pressure: float, volume: float, rise: float) -> Figure:
     """Draw the torque that each combination of parts has over what it needs.
 
-    Parameters
-    ----------
-    pressure
-        Wanted gauge pressure, MPa.
-    volume
-        Of the finger at rest, mL; at pressure it holds a quarter more.
-    rise
-        Rise time, s.
+    Args:
+        pressure: Wanted gauge pressure, MPa.
+        volume: Of the finger at rest, mL; at pressure it holds a quarter more.
+        rise: Rise time, s.
     """
     finger = Finger(pressure * MPa, volume * ML, 1.25 * volume * ML, 2 * ML, rise)
     judged = sizings(finger)[::-1]
@@ -113,10 +103,8 @@ def draw_sizing(pressure: float, volume: float, rise: float) -> Figure:
 def draw_pid(kp: float, ki: float, kd: float) -> Figure:
     """Draw the step of the (4.15) controller on its model, with scaled gains.
 
-    Parameters
-    ----------
-    kp, ki, kd
-        Factors on the tuned gains.
+    Args:
+        kp, ki, kd: Factors on the tuned gains.
     """
     tuned = pid_gains("full")
     gains = Gains(kp * tuned.kp, ki * tuned.ki, kd * tuned.kd, tuned.derivative_filter)

@@ -13,12 +13,9 @@ from softgrip.units import MPa
 def draw_new_material(E: float, MV: float, TS: float) -> Figure:
     """Draw the predicted n of a new material among the ten known ones.
 
-    Parameters
-    ----------
-    E, TS
-        Young's modulus (100 % modulus) and tensile strength, MPa.
-    MV
-        Mixed viscosity, Pa s.
+    Args:
+        E, TS: Young's modulus (100 % modulus) and tensile strength, MPa.
+        MV: Mixed viscosity, Pa s.
     """
     found = predict_power(E * MPa, MV, TS * MPa)
     power = found.power

@@ -35,14 +35,10 @@ stiffness alike, and no response."""
 class StepFinger:
     """A finger of Section 5.4.
 
-    Attributes
-    ----------
-    material
-        As in Table 5.1.
-    logs
-        What the names of its logs begin with.
-    estimated, true
-        Fractional powers of Table 5.2.
+    Attributes:
+        material: As in Table 5.1.
+        logs: What the names of its logs begin with.
+        estimated, true: Fractional powers of Table 5.2.
     """
 
     material: str
@@ -102,8 +98,6 @@ def rms_error(model: Floats, test: StepTest) -> float:
 def step_test_error(design: str, kind: Kind, angle: int, *, identified: int = 60) -> float:
     """Return the RMS error, deg, of a model identified at one angle and held against another.
 
-    Examples
-    --------
     >>> step_test_error("Design 1", "ludwick", 60) < step_test_error("Design 1", "linear", 60)
     True
     """
@@ -117,12 +111,9 @@ def compare(
 ) -> tuple[tuple[StepTest, StepTest], dict[Kind, FittedFinger]]:
     """Read two tests of a finger and fit both models to the first.
 
-    Parameters
-    ----------
-    design
-        A key of `FINGERS`, for the estimated power.
-    logs
-        Paths of the runs of the first and of the second test.
+    Args:
+        design: A key of `FINGERS`, for the estimated power.
+        logs: Paths of the runs of the first and of the second test.
     """
     tests = read_step_test(logs[0]), read_step_test(logs[1])
     power: dict[Kind, float] = {"linear": 1.0, "ludwick": step_finger(design).estimated}

@@ -38,20 +38,14 @@ RIGS = {"Design 1": design_1, "Design 2": design_3}
 class SweepPoint:
     """Errors at one step; all RMS against the mean of seven runs, deg.
 
-    Attributes
-    ----------
-    design
-        Chapter 5's name of the finger.
-    angle
-        At which the median run ends, deg.
-    linear, ludwick
-        Of the two models identified on the logs of the 60 deg test.
-    linear_again, ludwick_again
-        Of models identified anew on this very step.
-    linear_range
-        The largest, among the steps up to this one, of the one linear model that keeps it least.
-    runs
-        Of the single runs: what the material's spread alone makes.
+    Attributes:
+        design: Chapter 5's name of the finger.
+        angle: At which the median run ends, deg.
+        linear, ludwick: Of the two models identified on the logs of the 60 deg test.
+        linear_again, ludwick_again: Of models identified anew on this very step.
+        linear_range: The largest, among the steps up to this one, of the one linear model that
+            keeps it least.
+        runs: Of the single runs: what the material's spread alone makes.
     """
 
     design: str
@@ -67,12 +61,9 @@ class SweepPoint:
 def one_for_all(tests: Sequence[StepTest], start: SecondOrder) -> tuple[SecondOrder, float]:
     """Return the linear model whose largest RMS error over several tests is least, and that, rad.
 
-    Parameters
-    ----------
-    tests
-        Of one sampling.
-    start
-        Where the search begins.
+    Args:
+        tests: Of one sampling.
+        start: Where the search begins.
     """
     time = tests[0].time
     pressure, angle = (np.stack([getattr(t, n) for t in tests]) for n in ("pressure", "angle"))

@@ -57,18 +57,13 @@ ENTRIES: dict[str, Callable[[], RigController]] = {
 class Judged:
     """Measures of a batch, each of shape (runs,), from the true angles.
 
-    Attributes
-    ----------
-    settling
-        By criterion, s: time after which both fingers stay within a band about their own ends.
-    overshoot
-        Larger of the two fingers', share of its own end.
-    synchronization
-        Largest over time, rad; see `synchronization_error`, with the targets.
-    error
-        Larger of the two distances of end and target, rad.
-    peak
-        Largest motor speed, rad/s.
+    Attributes:
+        settling: By criterion, s: time after which both fingers stay within a band about their own
+            ends.
+        overshoot: Larger of the two fingers', share of its own end.
+        synchronization: Largest over time, rad; see `synchronization_error`, with the targets.
+        error: Larger of the two distances of end and target, rad.
+        peak: Largest motor speed, rad/s.
     """
 
     settling: dict[str, Floats]

@@ -69,14 +69,10 @@ def gripper_controller(
 ) -> RigController:
     """Return a controller that goes for the `target_angles` of its model.
 
-    Parameters
-    ----------
-    name
-        Which.
-    model
-        Known to the controller; `own_model` if None.
-    limit
-        Of the motor, rad/s, as far as the scheme of Figure 6.3 knows of it.
+    Args:
+        name: Which.
+        model: Known to the controller; `own_model` if None.
+        limit: Of the motor, rad/s, as far as the scheme of Figure 6.3 knows of it.
     """
     if name == "open loop":
         return CommandSequence(push_commands(TRAVEL, printed_gripper().pump))
@@ -105,17 +101,12 @@ def gripper_controller(
 def feedback_of(controller: RigController, fingers: int) -> control.StateSpace | None:
     """Return a controller from the angles [rad] to the motor speed [rad/s], without its limit.
 
-    Parameters
-    ----------
-    controller
-        Which.
-    fingers
-        Number of angles.
+    Args:
+        controller: Which.
+        fingers: Number of angles.
 
-    Returns
-    -------
-    StateSpace or None
-        One input a finger, sampled at `PERIOD`; None if it looks at no angle.
+    Returns:
+        StateSpace or None: One input a finger, sampled at `PERIOD`; None if it looks at no angle.
     """
     match controller:
         case InternalModelController():

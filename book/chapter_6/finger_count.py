@@ -27,18 +27,12 @@ SETTLING, LIMIT = 1.5, 5.0
 class CountPoint:
     """Some fingers with some spread between them.
 
-    Attributes
-    ----------
-    fingers
-        How many.
-    spread
-        Bound of the deviation of K_n, as a share of nominal.
-    outside
-        Share of equal angles that is out of reach, as of `reach.Projection`.
-    worst_residual
-        Largest error that a finger keeps at rest, deg.
-    worst_sync
-        Least largest difference on the way, as of `OptimalFeedforward`.
+    Attributes:
+        fingers: How many.
+        spread: Bound of the deviation of K_n, as a share of nominal.
+        outside: Share of equal angles that is out of reach, as of `reach.Projection`.
+        worst_residual: Largest error that a finger keeps at rest, deg.
+        worst_sync: Least largest difference on the way, as of `OptimalFeedforward`.
     """
 
     fingers: int
@@ -54,15 +48,10 @@ def spread_gripper(fingers: int, spread: float) -> Gripper:
     Their deviations are the means of n sorted uniform draws, ``spread (2 i / (n + 1) - 1)``: more
     fingers reach farther out, as more draws do. All else is of the mean of Eq. (6.26).
 
-    Parameters
-    ----------
-    fingers
-        n, >= 2.
-    spread
-        Bound of the deviation as a share of nominal, 0 <= spread < 1.
+    Args:
+        fingers: n, >= 2.
+        spread: Bound of the deviation as a share of nominal, 0 <= spread < 1.
 
-    Examples
-    --------
     >>> [round(f.stiffness, 3) for f in spread_gripper(3, 0.1).fingers]
     [3.168, 3.335, 3.502]
     """

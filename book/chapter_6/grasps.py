@@ -42,18 +42,12 @@ def _push(speed: float) -> Floats:
 class Grasp:
     """A grasp over time.
 
-    Attributes
-    ----------
-    time
-        s, shape (N,).
-    angles
-        rad, shape (2, N).
-    place
-        Of the disc's centre, m from the middle, shape (N,).
-    forces
-        Of left and right finger on the disc, N, shape (2, N).
-    contact
-        The disc between the fingers.
+    Attributes:
+        time: s, shape (N,).
+        angles: rad, shape (2, N).
+        place: Of the disc's centre, m from the middle, shape (N,).
+        forces: Of left and right finger on the disc, N, shape (2, N).
+        contact: The disc between the fingers.
     """
 
     time: Floats
@@ -73,16 +67,11 @@ class Grasp:
 def grasp(stiffness: float, by: str, *, equal: bool = False, step: float = STEP) -> Grasp:
     """Simulate a grasp by the median gripper.
 
-    Parameters
-    ----------
-    stiffness
-        Of the disc, N/m.
-    by
-        One of `DRIVES`.
-    equal
-        Whether both fingers are as the left one.
-    step
-        Of the integration, s.
+    Args:
+        stiffness: Of the disc, N/m.
+        by: One of `DRIVES`.
+        equal: Whether both fingers are as the left one.
+        step: Of the integration, s.
     """
     contact = DiscBetweenFingers(ElasticDisc(stiffness))
     gripper = printed_gripper(spread=False)

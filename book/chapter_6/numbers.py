@@ -66,16 +66,11 @@ def loop_gain(target: str) -> float:
 def filter_coefficient(target: str, part: str, power: int, poles: int = 2) -> float:
     """Return a coefficient of the re-derived H, its denominator starting with 1.
 
-    Parameters
-    ----------
-    target
-        "4.8/s" or "2/s".
-    part
-        "num" or "den".
-    power
-        Of s.
-    poles
-        That the target loop is given beyond its crossover; their place is fitted.
+    Args:
+        target: "4.8/s" or "2/s".
+        part: "num" or "den".
+        power: Of s.
+        poles: That the target loop is given beyond its crossover; their place is fitted.
     """
     found = shaped(target, poles)[1].complementary
     low = np.poly(found.poles()).real

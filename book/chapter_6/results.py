@@ -63,15 +63,11 @@ def largest_weight(speed: float) -> float | None:
 
     A weight of second order, fitted to the models that the runs identify without noise.
 
-    Parameters
-    ----------
-    speed
-        rad/s, > 0.
+    Args:
+        speed: rad/s, > 0.
 
-    Returns
-    -------
-    float or None
-        A share; None where not every run identifies a model.
+    Returns:
+        float or None: A share; None where not every run identifies a model.
     """
     _, found = step_identifies(printed_gripper(), TRAVEL, runs=RUNS, seed=SEED, speed=speed)
     if len(found[0]) < RUNS:
@@ -95,11 +91,9 @@ def band(kind: str) -> tuple[float, float]:
 def push_response(*, runs: int = 50) -> tuple[Floats, Floats]:
     """Return by how much a push on the left finger moves both, against the same runs without it.
 
-    Returns
-    -------
-    tuple
-        Time since the push begins, s, shape (N,), and the median over the runs, rad, shape
-        (fingers, N).
+    Returns:
+        tuple: Time since the push begins, s, shape (N,), and the median over the runs, rad, shape
+            (fingers, N).
     """
     pushed, free = (
         drive(

@@ -36,14 +36,10 @@ def as_far_apart(spread: float) -> Gripper:
 def draw_step(bandwidth: float, spread: float, noise: float) -> Figure:
     """Draw a step to 60 deg at 100 ms with the low-pass of Remark 4.
 
-    Parameters
-    ----------
-    bandwidth
-        Cut-off of the filter, rad/s.
-    spread
-        Factor on the difference of the two fingers; 1 is that of Eq. (6.26).
-    noise
-        RMS of each measured angle, deg.
+    Args:
+        bandwidth: Cut-off of the filter, rad/s.
+        spread: Factor on the difference of the two fingers; 1 is that of Eq. (6.26).
+        noise: RMS of each measured angle, deg.
     """
     return _draw(bandwidth, spread, noise, 0.0)
 
@@ -51,12 +47,9 @@ def draw_step(bandwidth: float, spread: float, noise: float) -> Figure:
 def draw_push(bandwidth: float, spread: float, disturbance: float) -> Figure:
     """Draw a step as `draw_step` without noise, and a force on the left finger from 2.5 s on.
 
-    Parameters
-    ----------
-    bandwidth, spread
-        As of `draw_step`.
-    disturbance
-        By how much the force alone would bend the finger, deg.
+    Args:
+        bandwidth, spread: As of `draw_step`.
+        disturbance: By how much the force alone would bend the finger, deg.
     """
     return _draw(bandwidth, spread, 0.0, disturbance)
 

@@ -32,14 +32,10 @@ END = 1.0
 class SpeedSpread:
     """Errors of the angle at rest at one speed, deg, shape (runs,).
 
-    Attributes
-    ----------
-    speed
-        rev/s.
-    true
-        Without the sensor.
-    measured
-        With it.
+    Attributes:
+        speed: rev/s.
+        true: Without the sensor.
+        measured: With it.
     """
 
     speed: float

@@ -100,12 +100,9 @@ def _claim(row: dict[str, Any], path: object) -> Claim:
 def read_claims(chapter: int | None = None) -> list[Claim]:
     """Read the claims of a chapter, or of all.
 
-    Raises
-    ------
-    InvalidInputError
-        If the chapter has no claims.
-    DataFileError
-        If a file has an unknown field, an unknown basis, or two claims of one id.
+    Raises:
+        InvalidInputError: If the chapter has no claims.
+        DataFileError: If a file has an unknown field, an unknown basis, or two claims of one id.
     """
     files = sorted(path.name for path in (data_folder() / "claims").glob("chapter_*.toml"))
     if chapter is not None:
@@ -130,10 +127,8 @@ def read_claims(chapter: int | None = None) -> list[Claim]:
 def claim_of(chapter: int, pattern: str, key: object = "") -> Claim:
     """Return a claim by its id, such as ``table-3.2-top-{key}``, and its key if it is a cell's.
 
-    Raises
-    ------
-    UnknownNameError
-        If the chapter has no such claim; the message lists those it has.
+    Raises:
+        UnknownNameError: If the chapter has no such claim; the message lists those it has.
     """
     known = {claim.id: claim for claim in read_claims(chapter)}
     if (name := _id(pattern, key)) not in known:

@@ -101,20 +101,14 @@ def figure(
 ) -> Callable[[Make], Make]:
     """Register a function that returns a matplotlib Figure.
 
-    Parameters
-    ----------
-    number
-        The dissertation's number, or chapter and a letter.
-    caption
-        What is shown, as MyST Markdown.
-    alt
-        The picture in words, for those who do not see it.
-    provenance
-        Class of what is drawn.
-    sources
-        Data that are not files below ``data/``, in words; those are found out when it is made.
-    drawing
-        Whether no numbers stand behind it.
+    Args:
+        number: The dissertation's number, or chapter and a letter.
+        caption: What is shown, as MyST Markdown.
+        alt: The picture in words, for those who do not see it.
+        provenance: Class of what is drawn.
+        sources: Data that are not files below ``data/``, in words; those are found out when it is
+            made.
+        drawing: Whether no numbers stand behind it.
     """
     return _register("figure", number, caption, alt, provenance, sources, drawing)
 
@@ -136,15 +130,11 @@ def _register_chapter(chapter: str) -> None:
 def exhibit(title: str) -> Exhibit:
     """Find a figure or table by its title, importing its chapter's files only.
 
-    Parameters
-    ----------
-    title
-        Such as ``Figure 5.1``.
+    Args:
+        title: Such as ``Figure 5.1``.
 
-    Raises
-    ------
-    UnknownNameError
-        If there is none; the message lists those of the chapter.
+    Raises:
+        UnknownNameError: If there is none; the message lists those of the chapter.
     """
     kind, _, number = title.lower().partition(" ")
     chapter = number.partition(".")[0]
@@ -161,12 +151,9 @@ def with_logs(item: Exhibit, logs: Sequence[Path | str]) -> Exhibit:
 
     It says what the reader of logs mended in them, and where rows are missing.
 
-    Raises
-    ------
-    InvalidInputError
-        If the exhibit is not made from logs, or no log is given.
-    DataFileError
-        If a log cannot be read.
+    Raises:
+        InvalidInputError: If the exhibit is not made from logs, or no log is given.
+        DataFileError: If a log cannot be read.
     """
     if "logs" not in signature(item.make).parameters or not logs:
         raise InvalidInputError("logs", expected=f"none for {item.title}", got=[*map(str, logs)])

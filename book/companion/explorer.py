@@ -138,28 +138,19 @@ def explore(
     picture. Static, as in the built book, all combinations of values are drawn ahead and the page
     needs no kernel.
 
-    Parameters
-    ----------
-    draw
-        A pure function that returns a matplotlib Figure; called with one keyword a slider.
-    mode
-        ``"live"`` or ``"static"``. Without it, static where the environment variable
-        ``SOFTGRIP_BOOK`` is ``static``, else live.
-    alt
-        The picture in words, for those who do not see it; the sliders' values are added.
-    **sliders
-        From a parameter of ``draw`` (not named ``mode`` or ``alt``) to a `Slider`, to what
-        `slider` returns, or to the values alone (numbers or strings).
+    Args:
+        draw: A pure function that returns a matplotlib Figure; called with one keyword a slider.
+        mode: ``"live"`` or ``"static"``. Without it, static where the environment variable
+            ``SOFTGRIP_BOOK`` is ``static``, else live.
+        alt: The picture in words, for those who do not see it; the sliders' values are added.
+        **sliders: From a parameter of ``draw`` (not named ``mode`` or ``alt``) to a `Slider`, to
+            what `slider` returns, or to the values alone (numbers or strings).
 
-    Raises
-    ------
-    InvalidInputError
-        If there are no or more than three sliders, if they do not fit the parameters of ``draw``,
-        if ``draw`` does not return a Figure, or if static frames are too many (125 a call) or
-        too large (3 MB of base64 a page).
+    Raises:
+        InvalidInputError: If there are no or more than three sliders, if they do not fit the
+            parameters of ``draw``, if ``draw`` does not return a Figure, or if static frames are
+            too many (125 a call) or too large (3 MB of base64 a page).
 
-    Examples
-    --------
     >>> from matplotlib.figure import Figure
     >>> def draw(law: str) -> Figure:
     ...     figure = Figure(figsize=(1, 1))

@@ -50,17 +50,13 @@ def _encode(figure: Figure) -> Frame:
 def render(draw: Callable[..., Figure], parameters: Mapping[str, Any]) -> Frame:
     """Draw one frame, and leave no pyplot figure open that was not open before.
 
-    Parameters
-    ----------
-    draw
-        Returns a matplotlib Figure.
-    parameters
-        What it is called with.
+    Args:
+        draw: Returns a matplotlib Figure.
+        parameters: What it is called with.
 
-    Raises
-    ------
-    InvalidInputError
-        If it returns something else. What it raises itself passes, with the parameters noted.
+    Raises:
+        InvalidInputError: If it returns something else. What it raises itself passes, with the
+            parameters noted.
     """
     before = set(plt.get_fignums())
     try:
@@ -93,10 +89,9 @@ class Budget:
     def spend(self, frames: Sequence[Frame]) -> None:
         """Count the frames of one explorer in.
 
-        Raises
-        ------
-        InvalidInputError
-            If the page's frames are now larger than the limit; these are then not counted.
+        Raises:
+            InvalidInputError: If the page's frames are now larger than the limit; these are then
+                not counted.
         """
         asked = sum(frame.size for frame in frames)
         total = self.spent + asked

@@ -63,11 +63,9 @@ def _points(axes: Any) -> list[tuple[str, Any, Any]]:
 def numbers(figure: Figure) -> pd.DataFrame:
     """Read the numbers of a figure back from what is drawn, so that the two cannot differ.
 
-    Returns
-    -------
-    DataFrame
-        One row a point: panel, series, x, y; the axes' labels, with units, are in ``x_is`` and
-        ``y_is``.
+    Returns:
+        DataFrame: One row a point: panel, series, x, y; the axes' labels, with units, are in
+            ``x_is`` and ``y_is``.
     """
     rows = []
     labels = [axes.get_xlabel() for axes in figure.axes if axes.get_xlabel()]

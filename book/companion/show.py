@@ -49,12 +49,9 @@ def _cell(value: object) -> str:
 def image(data: bytes, kind: str, alt: str) -> str:
     """Return the HTML of a picture that lies within the page.
 
-    Parameters
-    ----------
-    data, kind
-        Content, and its type: png or svg+xml.
-    alt
-        The picture in words.
+    Args:
+        data, kind: Content, and its type: png or svg+xml.
+        alt: The picture in words.
     """
     return (
         f'<img src="data:image/{kind};base64,{b64encode(data).decode()}" '
@@ -156,14 +153,11 @@ class Shown:
 def show(title: str, *, logs: Sequence[Path | str] = (), numbered: bool = True) -> Shown:
     """Make a figure or table and show it with its number, caption and provenance.
 
-    Parameters
-    ----------
-    title
-        Such as ``Figure 5.1``.
-    logs
-        Logs of a rig to show in the place of those of the book, by path.
-    numbered
-        Whether this is its place. Elsewhere it leaves the chapter's own, and its number, alone.
+    Args:
+        title: Such as ``Figure 5.1``.
+        logs: Logs of a rig to show in the place of those of the book, by path.
+        numbered: Whether this is its place. Elsewhere it leaves the chapter's own, and its number,
+            alone.
     """
     item = with_logs(exhibit(title), logs) if logs else exhibit(title)
     made = save(item, FOLDER) if numbered and _in_static_book() else make(item)

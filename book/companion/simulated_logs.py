@@ -45,35 +45,21 @@ STEP_DURATION = 20.0
 class Recipe:
     """How a simulated log is made.
 
-    Attributes
-    ----------
-    control
-        Makes the controller, whose log begins at rest; or the motor speeds in open loop, rad/s,
-        shape (N,), whose log begins at the end of the first period.
-    words
-        What the log shows.
-    duration
-        s, under a controller.
-    reference
-        As of `record`, or what gives it.
-    push
-        As of `drive`.
-    events
-        Words by time, s.
-    notes
-        More for the header.
-    rig
-        Gives the parameters of the rig.
-    run
-        Number of the run.
-    plunger
-        Where the plunger starts, m.
-    until
-        Gauge pressure at which a run in open loop ends, Pa; it also ends with the stroke.
-    period
-        s.
-    calibration
-        Of the rig, below ``data/``.
+    Attributes:
+        control: Makes the controller, whose log begins at rest; or the motor speeds in open loop,
+            rad/s, shape (N,), whose log begins at the end of the first period.
+        words: What the log shows.
+        duration: s, under a controller.
+        reference: As of `record`, or what gives it.
+        push: As of `drive`.
+        events: Words by time, s.
+        notes: More for the header.
+        rig: Gives the parameters of the rig.
+        run: Number of the run.
+        plunger: Where the plunger starts, m.
+        until: Gauge pressure at which a run in open loop ends, Pa; it also ends with the stroke.
+        period: s.
+        calibration: Of the rig, below ``data/``.
     """
 
     control: Callable[[], RigController] | Floats
@@ -149,18 +135,12 @@ def tracked(
 ) -> Recipe:
     """Return the recipe of a controller of one finger.
 
-    Parameters
-    ----------
-    controller
-        Makes it, with its gains.
-    name
-        What it is called.
-    gains
-        Where its gains stand, below ``data/``.
-    words
-        What the log shows.
-    reference
-        rad, shape (N,); None for a step.
+    Args:
+        controller: Makes it, with its gains.
+        name: What it is called.
+        gains: Where its gains stand, below ``data/``.
+        words: What the log shows.
+        reference: rad, shape (N,); None for a step.
     """
     followed = np.full(round(STEP_DURATION / PERIOD) + 1, STEP) if reference is None else reference
     return Recipe(
@@ -183,17 +163,12 @@ def writers() -> dict[str, Callable[[Path, str], None]]:
 def make(name: str, folder: Path | None = None) -> Path:
     """Make one log, in place of the one that is there, and return its path.
 
-    Parameters
-    ----------
-    name
-        One of `writers`.
-    folder
-        Where to write it; None for ``data/simulated/``.
+    Args:
+        name: One of `writers`.
+        folder: Where to write it; None for ``data/simulated/``.
 
-    Raises
-    ------
-    UnknownNameError
-        If there is no such log.
+    Raises:
+        UnknownNameError: If there is no such log.
     """
     known = writers()
     if name not in known:

@@ -33,11 +33,9 @@ def _tidy(values: np.ndarray) -> list[float]:
 class Slider:
     """The values that one parameter of a figure may take.
 
-    Raises
-    ------
-    InvalidInputError
-        If there are fewer than two values, if one is neither a finite number nor a string, if
-        two are the same, or if the default is not one of them.
+    Raises:
+        InvalidInputError: If there are fewer than two values, if one is neither a finite number nor
+            a string, if two are the same, or if the default is not one of them.
     """
 
     values: Sequence[Value]
@@ -98,26 +96,17 @@ def slider(
 ) -> Slider:
     """Return a slider over evenly spaced numbers, which a live page divides more finely.
 
-    Parameters
-    ----------
-    low, high
-        The extremes; low < high.
-    steps
-        How many values there are, extremes included: 2 to 125. Each is a frame in the built page.
-    label
-        What is varied, as the reader is told.
-    unit
-        Written behind the number.
-    default
-        The value shown first, one of the steps; without it, ``low``.
+    Args:
+        low, high: The extremes; low < high.
+        steps: How many values there are, extremes included: 2 to 125. Each is a frame in the built
+            page.
+        label: What is varied, as the reader is told.
+        unit: Written behind the number.
+        default: The value shown first, one of the steps; without it, ``low``.
 
-    Raises
-    ------
-    InvalidInputError
-        If an argument is outside its range.
+    Raises:
+        InvalidInputError: If an argument is outside its range.
 
-    Examples
-    --------
     >>> slider(0, 60, 4, label="Pressure", unit="kPa", default=20).values
     (0.0, 20.0, 40.0, 60.0)
     """

@@ -77,12 +77,9 @@ def still(height: float, *, left: float = 0.14) -> tuple[Figure, Any]:
     The axes keep their place, where a layout engine would move them from frame to frame; and a
     frame is drawn in half the time.
 
-    Parameters
-    ----------
-    height
-        Inches.
-    left
-        Room for the labels on the left, as a part of the width.
+    Args:
+        height: Inches.
+        left: Room for the labels on the left, as a part of the width.
     """
     with mpl.rc_context({"figure.constrained_layout.use": False}):
         figure = Figure(figsize=(WIDTH, height))

@@ -128,11 +128,9 @@ def _function(claim: Claim) -> Callable[..., float]:
 def judge(claim: Claim) -> Entry:
     """Recompute a claim and give the verdict that follows.
 
-    Raises
-    ------
-    DataFileError
-        If the claim can be recomputed from inputs, but names no function that does, or one that
-        does not exist, or tries an assumption without writing it out.
+    Raises:
+        DataFileError: If the claim can be recomputed from inputs, but names no function that does,
+            or one that does not exist, or tries an assumption without writing it out.
     """
     if not claim.function:
         if claim.basis == "inputs":

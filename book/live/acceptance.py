@@ -26,10 +26,8 @@ def _told(log: Log) -> str:
 def bands_table(logs: Mapping[Experiment, Path | str]) -> pd.DataFrame:
     """Tabulate each band of each log's experiment, pass or fail, and what was mended in the log.
 
-    Parameters
-    ----------
-    logs
-        Of steps, by experiment.
+    Args:
+        logs: Of steps, by experiment.
     """
     return pd.DataFrame(
         {
@@ -49,12 +47,9 @@ def draw_calibration(
 ) -> Figure:
     """Draw pairs, their line, and below what the line leaves over.
 
-    Parameters
-    ----------
-    counts, known, line
-        As of `fit_sensor`.
-    unit, factor
-        For the axes: values are multiplied by the factor.
+    Args:
+        counts, known, line: As of `fit_sensor`.
+        unit, factor: For the axes: values are multiplied by the factor.
     """
     x, y = np.asarray(counts, dtype=np.float64), np.asarray(known, dtype=np.float64)
     with style():

@@ -22,8 +22,6 @@ STEP_FOR = 15.0
 def experiments() -> dict[str, LiveExperiment]:
     """Return the experiments by name.
 
-    Examples
-    --------
     >>> {name: round(one.duration, 3) for name, one in experiments().items()}
     {'step': 15.0, 'staircase': 15.575}
     """

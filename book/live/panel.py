@@ -31,12 +31,9 @@ FOLDER = Path.home() / "softgrip-runs"
 class ControlPanel:
     """Buttons that drive a rig and a plot of what it does; see `control_panel`.
 
-    Attributes
-    ----------
-    logs
-        Of finished runs, by experiment.
-    run
-        The last; None before the first.
+    Attributes:
+        logs: Of finished runs, by experiment.
+        run: The last; None before the first.
     """
 
     def __init__(
@@ -147,12 +144,9 @@ class ControlPanel:
 class FinishedRun:
     """A run of the simulated rig as a still picture, for a page that no kernel serves.
 
-    Attributes
-    ----------
-    logs
-        As of `ControlPanel`.
-    run
-        What was run.
+    Attributes:
+        logs: As of `ControlPanel`.
+        run: What was run.
     """
 
     def __init__(self, rig: Rig, folder: Path | str, name: str) -> None:
@@ -195,16 +189,11 @@ def control_panel(
     (``SOFTGRIP_BOOK=static``) it is a finished run of the simulated rig, and any other rig is
     refused.
 
-    Parameters
-    ----------
-    rig
-        Sampled each 25 ms.
-    folder
-        Of the logs; None for `FOLDER`, or, in the built book, one that is thrown away.
-    shown
-        The experiment that the built book shows.
-    real_time
-        Whether the simulated rig keeps the pace of a clock.
+    Args:
+        rig: Sampled each 25 ms.
+        folder: Of the logs; None for `FOLDER`, or, in the built book, one that is thrown away.
+        shown: The experiment that the built book shows.
+        real_time: Whether the simulated rig keeps the pace of a clock.
     """
     if os.environ.get("SOFTGRIP_BOOK") == "static":
         if folder is None:

@@ -22,14 +22,10 @@ class LivePlot:
     So that a thread can draw while others do too: the settings of a style are the whole
     process's, and are needed when the figure is made.
 
-    Parameters
-    ----------
-    experiment
-        Its reference is drawn ahead.
-    fingers
-        1 or 2.
-    back_end
-        What is driven, in words: the title.
+    Args:
+        experiment: Its reference is drawn ahead.
+        fingers: 1 or 2.
+        back_end: What is driven, in words: the title.
     """
 
     def __init__(self, experiment: LiveExperiment, fingers: int, back_end: str) -> None:

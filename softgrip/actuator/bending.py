@@ -15,21 +15,14 @@ from softgrip.units import MM, MPa
 class Finger:
     """A finger as Chapter 3's models see it.
 
-    Attributes
-    ----------
-    section
-        Its cross-section.
-    length
-        L_i at rest, m, > 0 (94 mm in Section 3.4).
-    young_modulus
-        E, Pa, > 0.
-    fractional_power
-        n, >= 1.
+    Attributes:
+        section: Its cross-section.
+        length: L_i at rest, m, > 0 (94 mm in Section 3.4).
+        young_modulus: E, Pa, > 0.
+        fractional_power: n, >= 1.
 
-    Raises
-    ------
-    InvalidInputError
-        If a number is out of its range. The section is checked where it is used.
+    Raises:
+        InvalidInputError: If a number is out of its range. The section is checked where it is used.
     """
 
     section: Section
@@ -58,15 +51,10 @@ def modified_moment(fractional_power: Number, width: Number, height: Number) -> 
     ``M = E I_n kappa**n`` follows from integrating ``y E (kappa y)**n`` over the section. At n = 1
     it is ``w h**3 / 12``.
 
-    Parameters
-    ----------
-    fractional_power
-        n, >= 1.
-    width, height
-        w and h = a + b, m, > 0.
+    Args:
+        fractional_power: n, >= 1.
+        width, height: w and h = a + b, m, > 0.
 
-    Examples
-    --------
     >>> modified_moment(1.0, 12.0, 1.0)
     1.0
     """
@@ -84,8 +72,6 @@ def bending_angle(finger: Finger, pressure: Number, *, elongated: bool = True) -
 
     It holds where the torque is not negative: b >= t and P >= 0. Then ``T**(1/n)`` is real.
 
-    Examples
-    --------
     >>> from softgrip.units import DEG
     >>> finger = Finger(Section(20 * MM, 4 * MM, 30 * MM, 1.5 * MM))
     >>> round(bending_angle(finger, 0.15 * MPa) / DEG, 1)
@@ -101,17 +87,13 @@ def bending_angle(finger: Finger, pressure: Number, *, elongated: bool = True) -
 def free_bending(finger: Finger, pressure: ArrayLike) -> Floats:
     """Return `bending_angle` of numbers, elongated, rad, after checking that it is defined.
 
-    Parameters
-    ----------
-    finger
-        With a section of numbers.
-    pressure
-        Pa, >= 0, any shape that broadcasts with the section.
+    Args:
+        finger: With a section of numbers.
+        pressure: Pa, >= 0, any shape that broadcasts with the section.
 
-    Raises
-    ------
-    InvalidInputError
-        If the section is no chamber, b < t, or a pressure is negative or not finite.
+    Raises:
+        InvalidInputError: If the section is no chamber, b < t, or a pressure is negative or not
+            finite.
     """
     check_section(finger.section)
     gauge = np.asarray(pressure, dtype=np.float64)

@@ -32,16 +32,11 @@ TOLERANCE = 1e-8
 class BentShape:
     """A bent finger; each array has shape (N,), from the base to the tip.
 
-    Attributes
-    ----------
-    arc_length
-        s, m, 0 to L.
-    angle
-        theta, rad, 0 at the base.
-    curvature
-        kappa, 1/m.
-    x, y
-        Along the straight finger and across it, towards the force, m.
+    Attributes:
+        arc_length: s, m, 0 to L.
+        angle: theta, rad, 0 at the base.
+        curvature: kappa, 1/m.
+        x, y: Along the straight finger and across it, towards the force, m.
     """
 
     arc_length: Floats
@@ -69,8 +64,6 @@ def tip_force_angle(finger: Finger, force: float) -> float:
 def constant_moment_angle(finger: Finger, moment: float) -> float:
     """Return the exact theta, rad, for a moment that is the same along the finger, N m.
 
-    Examples
-    --------
     >>> from softgrip.actuator.section import Section
     >>> finger = Finger(Section(0.02, 0.004, 0.03, 0.0015), fractional_power=2.5)
     >>> round(tip_force_angle(finger, 0.1 / 0.094) / constant_moment_angle(finger, 0.1), 4)
@@ -84,22 +77,16 @@ def bend(
 ) -> BentShape:
     """Solve the boundary-value problem of the finger, fixed at its base and loaded at its tip.
 
-    Parameters
-    ----------
-    finger
-        Its section counts as a solid rectangle, Eq. (3.8).
-    force
-        F, N, >= 0, across the straight finger.
-    moment
-        At the tip, N m, >= 0.
-    follower
-        Whether the force turns with the tip, and does not stay as it is.
+    Args:
+        finger: Its section counts as a solid rectangle, Eq. (3.8).
+        force: F, N, >= 0, across the straight finger.
+        moment: At the tip, N m, >= 0.
+        follower: Whether the force turns with the tip, and does not stay as it is.
 
-    Raises
-    ------
-    InvalidInputError
-        If a load is negative or not finite, or so large that no shape is found. Tried for n from 1
-        to 3 up to tip angles of 85 degrees by a dead load and 170 by a follower.
+    Raises:
+        InvalidInputError: If a load is negative or not finite, or so large that no shape is found.
+            Tried for n from 1 to 3 up to tip angles of 85 degrees by a dead load and 170 by a
+            follower.
     """
     for name, value in (("force", force), ("moment", moment)):
         if not (np.isfinite(value) and value >= 0):
@@ -143,19 +130,13 @@ def load_number(tip_angle: float, fractional_power: float, *, follower: bool = F
     ``g = sin(theta_tip) - sin(theta)`` for a dead load and ``sin(theta_tip - theta)`` for a
     follower. Then L is the integral of ``dtheta / kappa``.
 
-    Parameters
-    ----------
-    tip_angle
-        rad, > 0, below pi/2 for a dead load and below pi for a follower.
-    fractional_power
-        n, >= 1.
-    follower
-        As in `bend`.
+    Args:
+        tip_angle: rad, > 0, below pi/2 for a dead load and below pi for a follower.
+        fractional_power: n, >= 1.
+        follower: As in `bend`.
 
-    Raises
-    ------
-    InvalidInputError
-        If a value is out of its range.
+    Raises:
+        InvalidInputError: If a value is out of its range.
     """
     check_power(fractional_power)
     limit = np.pi if follower else np.pi / 2
@@ -178,8 +159,6 @@ def closed_form_error(
 ) -> float:
     """Return by how much of the true tip angle the closed form exceeds it; see `load_number`.
 
-    Examples
-    --------
     >>> round(closed_form_error(np.radians(45), 1.0), 3)
     0.282
     """

@@ -30,19 +30,13 @@ MOST_BOXES = 2_000_000
 class Certificate:
     """What branch and bound says of a design.
 
-    Attributes
-    ----------
-    objective
-        Of the design.
-    upper_bound
-        No section that fulfils the constraints has a larger objective.
-    boxes
-        Number of boxes whose bound was taken.
-    better
-        A section that fulfils the constraints and does better, if one was met: then the design
-        is refuted, and the upper bound is the best known so far.
-    proven
-        Whether ``upper_bound - objective`` is within the tolerance asked for.
+    Attributes:
+        objective: Of the design.
+        upper_bound: No section that fulfils the constraints has a larger objective.
+        boxes: Number of boxes whose bound was taken.
+        better: A section that fulfils the constraints and does better, if one was met: then the
+            design is refuted, and the upper bound is the best known so far.
+        proven: Whether ``upper_bound - objective`` is within the tolerance asked for.
     """
 
     objective: float
@@ -69,15 +63,10 @@ def certified_design(
     and the material nearly linear, one at the smallest height and one at the largest. Branch and
     bound either proves the one found, or meets a better section, from which IPOPT starts again.
 
-    Parameters
-    ----------
-    problem, start
-        As of `optimize.optimal_design`, whose errors it raises.
-    tolerance
-        As of `certify`.
+    Args:
+        problem, start: As of `optimize.optimal_design`, whose errors it raises.
+        tolerance: As of `certify`.
 
-    Examples
-    --------
     >>> two_peaks = DesignProblem(
     ...     pressure=20e3, fractional_power=1.5, torque_scale=1.0, angle_scale=8.0)
     >>> found = certified_design(two_peaks)
@@ -99,19 +88,13 @@ def certified_design(
 def certify(problem: DesignProblem, design: Design, *, tolerance: float = 1e-5) -> Certificate:
     """Bound the objective over all sections that fulfil the constraints.
 
-    Parameters
-    ----------
-    problem
-        Eq. (3.20) with its numbers.
-    design
-        The one that may be the best; it must fulfil the constraints.
-    tolerance
-        Largest part of its objective by which another section may be better, > 0.
+    Args:
+        problem: Eq. (3.20) with its numbers.
+        design: The one that may be the best; it must fulfil the constraints.
+        tolerance: Largest part of its objective by which another section may be better, > 0.
 
-    Raises
-    ------
-    InvalidInputError
-        If the tolerance is not above zero.
+    Raises:
+        InvalidInputError: If the tolerance is not above zero.
     """
     check_positive(tolerance=tolerance)
     bounds = problem.bounds
@@ -162,12 +145,10 @@ def upper_bound(problem: DesignProblem, boxes: Floats) -> Floats:
 
     Minus infinity where no section of the box fulfils the constraints.
 
-    Parameters
-    ----------
-    problem
-        Eq. (3.20) with its numbers.
-    boxes
-        Least and largest a, least and largest b, m, shape (4, N), all b >= the thinnest wall.
+    Args:
+        problem: Eq. (3.20) with its numbers.
+        boxes: Least and largest a, least and largest b, m, shape (4, N), all b >= the thinnest
+            wall.
     """
     bounds, P, E = problem.bounds, problem.pressure, problem.young_modulus
     n, t = problem.fractional_power, bounds.wall[0]

@@ -27,18 +27,13 @@ class Bounds:
     The defaults are those of Section 3.3, with the ranges of a and b exchanged: as printed, a (2
     to 5 mm) and b (14 to 24 mm) contradict Table 3.1, where a is 20 and b 4 mm.
 
-    Attributes
-    ----------
-    top, bottom, width, wall
-        Of a, b, w and t.
-    height
-        Of h = a + b.
+    Attributes:
+        top, bottom, width, wall: Of a, b, w and t.
+        height: Of h = a + b.
 
-    Raises
-    ------
-    InvalidInputError
-        If a range is empty, or a section with the thinnest wall would be none: ``t < a``,
-        ``2 t < w``.
+    Raises:
+        InvalidInputError: If a range is empty, or a section with the thinnest wall would be none:
+            ``t < a``, ``2 t < w``.
     """
 
     top: Range = (14 * MM, 24 * MM)
@@ -67,12 +62,9 @@ class Bounds:
 class FrequencyBand:
     """A band of natural frequencies, as those of Table 3.2.
 
-    Attributes
-    ----------
-    low, high
-        omega_n1 and omega_n2, rad/s, 0 <= low <= high.
-    least_mass, largest_mass
-        M_1 and M_2, kg. Their values are not printed.
+    Attributes:
+        low, high: omega_n1 and omega_n2, rad/s, 0 <= low <= high.
+        least_mass, largest_mass: M_1 and M_2, kg. Their values are not printed.
     """
 
     low: float
@@ -92,18 +84,13 @@ class FrequencyBand:
 class DesignProblem:
     """The best section within bounds, Eq. (3.17); with a band of frequencies it is Eq. (3.20).
 
-    Attributes
-    ----------
-    pressure
-        P, Pa, > 0: held, as ``P' = 0`` says. Its value is not printed.
-    young_modulus, fractional_power, length
-        Of the material and the finger: Pa, dimensionless, m.
-    torque_scale, angle_scale
-        What T and theta are divided by, N m and rad (Section 3.3).
-    bounds
-        Of the dimensions.
-    band
-        Of the natural frequency, or None.
+    Attributes:
+        pressure: P, Pa, > 0: held, as ``P' = 0`` says. Its value is not printed.
+        young_modulus, fractional_power, length: Of the material and the finger: Pa, dimensionless,
+            m.
+        torque_scale, angle_scale: What T and theta are divided by, N m and rad (Section 3.3).
+        bounds: Of the dimensions.
+        band: Of the natural frequency, or None.
     """
 
     pressure: float = 0.15 * MPa
@@ -131,8 +118,6 @@ class DesignProblem:
 
         UnknownNameError is raised if the table has no such material, and lists those it has.
 
-        Examples
-        --------
         >>> DesignProblem.for_material("Ecoflex 00-30", pressure=30e3).young_modulus
         70000.0
         """

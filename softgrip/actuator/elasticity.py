@@ -37,12 +37,9 @@ _ORDER = 4
 class Elastic:
     """An isotropic linear elastic material; the defaults are those of Section 3.4.
 
-    Attributes
-    ----------
-    young_modulus
-        E, Pa, > 0.
-    poisson_ratio
-        nu, above -1 and below 0.5.
+    Attributes:
+        young_modulus: E, Pa, > 0.
+        poisson_ratio: nu, above -1 and below 0.5.
     """
 
     young_modulus: float = 0.34 * MPa
@@ -74,13 +71,10 @@ def quadratic(mesh: Mesh) -> Any:
 def stiffness(basis: Any, material: Elastic) -> Matrix:
     """Assemble a(u, v) of the module's head, N/m, shape (3 n, 3 n) for n nodes.
 
-    Parameters
-    ----------
-    basis
-        Of `quadratic`. The elements must be boxes along the axes: 1, x, y and z, from an element's
-        centre, are then orthogonal, which makes the projection a sum of four terms.
-    material
-        Its constants.
+    Args:
+        basis: Of `quadratic`. The elements must be boxes along the axes: 1, x, y and z, from an
+            element's centre, are then orthogonal, which makes the projection a sum of four terms.
+        material: Its constants.
     """
     upper = {(i, j): _gradients(i, j).assemble(basis) for i in range(3) for j in range(i, 3)}
     G = [[upper[i, j] if i <= j else upper[j, i].T for j in range(3)] for i in range(3)]
@@ -114,12 +108,9 @@ def nodes(basis: Any, boundary: str) -> Indices:
 class Solver:
     """Factors K with some displacements held, for any number of loads.
 
-    Parameters
-    ----------
-    K
-        Of `stiffness`.
-    held
-        Indices of the displacements that are given, shape (m,).
+    Args:
+        K: Of `stiffness`.
+        held: Indices of the displacements that are given, shape (m,).
     """
 
     def __init__(self, K: Matrix, held: Indices) -> None:

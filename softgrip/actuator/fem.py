@@ -35,15 +35,11 @@ from softgrip.arrays import Floats
 class TipResponse:
     """A finger as it is felt at its tip.
 
-    Attributes
-    ----------
-    length
-        L, m.
-    stiffness
-        S, shape (3, 3): forces by motions (see the module's head).
-    push
-        What the finger exerts on a plate that is held, per Pa of pressure: axial force, downward
-        force, curling moment, shape (3,).
+    Attributes:
+        length: L, m.
+        stiffness: S, shape (3, 3): forces by motions (see the module's head).
+        push: What the finger exerts on a plate that is held, per Pa of pressure: axial force,
+            downward force, curling moment, shape (3,).
     """
 
     length: float
@@ -95,18 +91,12 @@ class TipResponse:
 class Solution:
     """Displacements of the half finger, m, at n nodes, by component as in `elasticity`.
 
-    Attributes
-    ----------
-    basis
-        Of `elasticity.quadratic`.
-    K
-        Stiffness, N/m, shape (3 n, 3 n).
-    load
-        Forces of a unit pressure, N/Pa, shape (3 n,).
-    motions
-        For each unit motion of the plate, without pressure, shape (3 n, 3).
-    held
-        For a unit pressure, the plate held, shape (3 n,).
+    Attributes:
+        basis: Of `elasticity.quadratic`.
+        K: Stiffness, N/m, shape (3 n, 3 n).
+        load: Forces of a unit pressure, N/Pa, shape (3 n,).
+        motions: For each unit motion of the plate, without pressure, shape (3 n, 3).
+        held: For a unit pressure, the plate held, shape (3 n,).
     """
 
     basis: Any
@@ -150,20 +140,14 @@ def tip_response(solution: Solution) -> TipResponse:
 def respond(shape: FingerShape, size: float, material: Elastic | None = None) -> TipResponse:
     """Mesh a finger, solve it, and return how it is felt at its tip.
 
-    Parameters
-    ----------
-    shape
-        Its sizes.
-    size
-        Longest edge of an element, m: 2 mm gives 64 000 unknowns for one chamber along the finger,
-        95 000 for six.
-    material
-        Its constants; those of Section 3.4 if None.
+    Args:
+        shape: Its sizes.
+        size: Longest edge of an element, m: 2 mm gives 64 000 unknowns for one chamber along the
+            finger, 95 000 for six.
+        material: Its constants; those of Section 3.4 if None.
 
-    Raises
-    ------
-    InvalidInputError
-        If `size` is not above zero and below the length.
+    Raises:
+        InvalidInputError: If `size` is not above zero and below the length.
     """
     return tip_response(solve(finger_mesh(shape, size), material or Elastic()))
 
@@ -171,11 +155,9 @@ def respond(shape: FingerShape, size: float, material: Elastic | None = None) ->
 def centre_line(solution: Solution) -> tuple[Floats, Floats]:
     """Return the neutral surface's middle line when the tip is free.
 
-    Returns
-    -------
-    tuple of ndarray
-        Position along the finger, m, shape (m,), and displacement along x and y per pressure,
-        m/Pa, shape (2, m).
+    Returns:
+        tuple of ndarray: Position along the finger, m, shape (m,), and displacement along x and y
+            per pressure, m/Pa, shape (2, m).
     """
     along, height, across = solution.basis.doflocs
     line = np.flatnonzero(np.isclose(height, 0) & np.isclose(across, 0))

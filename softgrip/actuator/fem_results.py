@@ -45,24 +45,15 @@ COLUMNS = (
 class FemResult:
     """One finger, solved. See `fem.TipResponse` for the results.
 
-    Attributes
-    ----------
-    design
-        Row of Table 3.1.
-    chambers, groove_floor
-        As in `FingerShape`; m.
-    size
-        Longest edge of an element, m.
-    unknowns
-        Displacements of the half finger.
-    torque, scale_torque
-        Held straight, and by Eq. (3.24), N m/Pa.
-    angle
-        rad/Pa.
-    bending_stiffness
-        N m^2.
-    neutral_height
-        m.
+    Attributes:
+        design: Row of Table 3.1.
+        chambers, groove_floor: As in `FingerShape`; m.
+        size: Longest edge of an element, m.
+        unknowns: Displacements of the half finger.
+        torque, scale_torque: Held straight, and by Eq. (3.24), N m/Pa.
+        angle: rad/Pa.
+        bending_stiffness: N m^2.
+        neutral_height: m.
     """
 
     design: str
@@ -123,15 +114,11 @@ KEPT = {
 def read(table: str) -> tuple[FemResult, ...]:
     """Read a kept file of ``data/fem/``.
 
-    Parameters
-    ----------
-    table
-        "table_3_1", "convergence" or "groove_floor".
+    Args:
+        table: "table_3_1", "convergence" or "groove_floor".
 
-    Raises
-    ------
-    UnknownNameError
-        If it is none of these.
+    Raises:
+        UnknownNameError: If it is none of these.
     """
     if table not in TABLES:
         raise UnknownNameError("table", table, list(TABLES))

@@ -39,27 +39,20 @@ class FingerShape:
     The text prints the length (94 mm), the section and, in Section 6.3, the number of chambers. The
     other sizes are not printed: the defaults are **assumptions**.
 
-    Attributes
-    ----------
-    section
-        Its section, m.
-    chambers
-        1 is the cantilever beam of Figure 3.1: one chamber along the whole length. More have
-        grooves between them and are pressurised each, with no air channel (Assumption 1).
-    length
-        L, m.
-    cap
-        Thickness of the solid ends, m (assumed).
-    groove_width
-        Gap between the walls of two chambers, m (assumed). These walls have the thickness t.
-    groove_floor
-        Height of the bottom of a groove above the neutral surface, m, >= 0, below the chambers' top
-        (assumed: the grooves are as deep as the chambers). No other assumption matters as much.
+    Attributes:
+        section: Its section, m.
+        chambers: 1 is the cantilever beam of Figure 3.1: one chamber along the whole length. More
+            have grooves between them and are pressurised each, with no air channel (Assumption 1).
+        length: L, m.
+        cap: Thickness of the solid ends, m (assumed).
+        groove_width: Gap between the walls of two chambers, m (assumed). These walls have the
+            thickness t.
+        groove_floor: Height of the bottom of a groove above the neutral surface, m, >= 0, below the
+            chambers' top (assumed: the grooves are as deep as the chambers). No other assumption
+            matters as much.
 
-    Raises
-    ------
-    InvalidInputError
-        If the sizes leave no room for a chamber.
+    Raises:
+        InvalidInputError: If the sizes leave no room for a chamber.
     """
 
     section: Section
@@ -101,8 +94,6 @@ class FingerShape:
 def voids(finger: FingerShape) -> tuple[list[Box], list[Box]]:
     """Return the chambers and the grooves of the half finger.
 
-    Examples
-    --------
     >>> beam = FingerShape(Section(20 * MM, 4 * MM, 30 * MM, 1.5 * MM))
     >>> voids(beam)[0]
     [Box(low=(0.003, 0.0, 0.0), high=(0.091, 0.0185, 0.0135))]
@@ -124,26 +115,17 @@ def voids(finger: FingerShape) -> tuple[list[Box], list[Box]]:
 def finger_mesh(finger: FingerShape, size: float) -> Mesh:
     """Mesh half of a finger.
 
-    Parameters
-    ----------
-    finger
-        Its sizes.
-    size
-        Longest edge of an element, m; a thinner wall gets one layer.
+    Args:
+        finger: Its sizes.
+        size: Longest edge of an element, m; a thinner wall gets one layer.
 
-    Returns
-    -------
-    skfem.MeshHex
-        Boundaries: ``base`` (x = 0), ``tip`` (x = L), ``symmetry`` (z = 0) and ``pressure``, the
-        walls of the chambers.
+    Returns:
+        skfem.MeshHex: Boundaries: ``base`` (x = 0), ``tip`` (x = L), ``symmetry`` (z = 0) and
+            ``pressure``, the walls of the chambers.
 
-    Raises
-    ------
-    InvalidInputError
-        If the size is not a length > 0 below that of the finger.
+    Raises:
+        InvalidInputError: If the size is not a length > 0 below that of the finger.
 
-    Examples
-    --------
     >>> mesh = finger_mesh(FingerShape(Section(20 * MM, 4 * MM, 30 * MM, 1.5 * MM)), 10 * MM)
     >>> mesh.nelements, sorted(mesh.boundaries)
     (96, ['base', 'pressure', 'symmetry', 'tip'])
@@ -179,8 +161,6 @@ def box_mesh(outline: Box, size: float, left_out: Sequence[Box] = ()) -> Mesh:
 def grid_lines(breaks: Iterable[float], size: float) -> Floats:
     """Divide the intervals between the breaks evenly, into parts no longer than size.
 
-    Examples
-    --------
     >>> grid_lines([0.0, 4.0, 5.0, 4.0], 2.0).tolist()
     [0.0, 2.0, 4.0, 5.0]
     """

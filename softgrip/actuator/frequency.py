@@ -21,16 +21,12 @@ def natural_frequency(finger: Finger, mass: Number) -> Number:
     For n other than 1 it is the frequency of no motion: that of ``theta'' + omega**2 theta**n = 0``
     depends on the amplitude, and equals omega_n at no particular one.
 
-    Parameters
-    ----------
-    finger
-        Its section, length and material.
-    mass
-        M_eq, kg, > 0. The unit of ``K / M`` is m/s^2 and not 1/s^2: Eq. (3.11) sets a force equal
-        to a mass times an *angular* acceleration, so that a length of 1 m is hidden in it.
+    Args:
+        finger: Its section, length and material.
+        mass: M_eq, kg, > 0. The unit of ``K / M`` is m/s^2 and not 1/s^2: Eq. (3.11) sets a force
+            equal to a mass times an *angular* acceleration, so that a length of 1 m is hidden in
+            it.
 
-    Examples
-    --------
     >>> finger = Finger(Section(0.02, 0.004, 0.03, 0.0015), fractional_power=1.05)
     >>> round(natural_frequency(finger, 0.35), 2)
     2.61
@@ -56,8 +52,6 @@ def rubber_mass(section: Section, length: Number, density: Number) -> Number:
 
     End caps and the partitions between chambers are not counted: their sizes are not printed.
 
-    Examples
-    --------
     >>> round(rubber_mass(Section(0.02, 0.004, 0.03, 0.0015), 0.094, 1080.0), 4)
     0.0224
     """

@@ -50,18 +50,12 @@ class SolverError(SoftgripError, RuntimeError):
 class Design:
     """A section with what it does.
 
-    Attributes
-    ----------
-    section
-        Its dimensions, m.
-    objective
-        The sum of Eq. (3.20).
-    torque, angle
-        T, N m, and theta, rad, at the problem's pressure.
-    active
-        The constraints at whose ends it lies, such as "bottom <= 0.004 m".
-    iterations
-        Of the solver; 0 where there was none.
+    Attributes:
+        section: Its dimensions, m.
+        objective: The sum of Eq. (3.20).
+        torque, angle: T, N m, and theta, rad, at the problem's pressure.
+        active: The constraints at whose ends it lies, such as "bottom <= 0.004 m".
+        iterations: Of the solver; 0 where there was none.
     """
 
     section: Section
@@ -96,23 +90,16 @@ def optimal_design(problem: DesignProblem, start: Section | None = None) -> Desi
     constraint: so t is at its lower bound, and what is left are a, b and w, as logarithms. With
     ``b > t`` as a bound the torque stays positive on the way, where theta is defined.
 
-    Parameters
-    ----------
-    problem
-        Eq. (3.20) with its numbers.
-    start
-        First guess, any section, also one that bends backwards: it is moved into the box. The
-        middle of the box if None.
+    Args:
+        problem: Eq. (3.20) with its numbers.
+        start: First guess, any section, also one that bends backwards: it is moved into the box.
+            The middle of the box if None.
 
-    Raises
-    ------
-    InfeasibleDesignError
-        If no section fulfils the constraints; it names the one and the nearest feasible band.
-    SolverError
-        If IPOPT does not converge.
+    Raises:
+        InfeasibleDesignError: If no section fulfils the constraints; it names the one and the
+            nearest feasible band.
+        SolverError: If IPOPT does not converge.
 
-    Examples
-    --------
     >>> from softgrip.actuator.design import Bounds
     >>> table_3_2 = Bounds(top=(0.014, 0.020), bottom=(0.002, 0.004))
     >>> found = optimal_design(DesignProblem(bounds=table_3_2)).section
@@ -181,17 +168,12 @@ def manufacturable(problem: DesignProblem, steps: Mapping[str, float] = MOULD) -
     All sections of the grid that fulfil the constraints are tried, so it is the best of them, and
     it keeps the frequency band, which rounding the optimum would not. The wall is the thinnest.
 
-    Parameters
-    ----------
-    problem
-        Eq. (3.20) with its numbers.
-    steps
-        Of each dimension, m, > 0.
+    Args:
+        problem: Eq. (3.20) with its numbers.
+        steps: Of each dimension, m, > 0.
 
-    Raises
-    ------
-    InfeasibleDesignError
-        If no section of the grid fulfils the constraints.
+    Raises:
+        InfeasibleDesignError: If no section of the grid fulfils the constraints.
     """
     check_feasible(problem)
     if set(steps) != set(DIMENSIONS) or not all(step > 0 for step in steps.values()):

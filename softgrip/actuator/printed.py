@@ -57,18 +57,12 @@ class BandRow:
 class FrequencyRow:
     """A row of Table 3.3.
 
-    Attributes
-    ----------
-    young_modulus
-        E, Pa.
-    weight, length
-        M and L as printed: 0.35 "N" and 0.94 "m".
-    section
-        Of the design.
-    measured, deviation, estimated
-        rad/s.
-    error
-        Of the estimate, percent.
+    Attributes:
+        young_modulus: E, Pa.
+        weight, length: M and L as printed: 0.35 "N" and 0.94 "m".
+        section: Of the design.
+        measured, deviation, estimated: rad/s.
+        error: Of the estimate, percent.
     """
 
     name: str
@@ -94,8 +88,6 @@ def _section(row: Mapping[str, str]) -> Section:
 def table_3_1() -> Mapping[str, Section]:
     """Read Table 3.1: a read-only mapping from name to section, in the printed order.
 
-    Examples
-    --------
     >>> table_3_1()["Variance 1"].width
     0.029
     """

@@ -13,17 +13,11 @@ def prismatic_torque(section: Section, pressure: float, poisson_ratio: float) ->
     shape of the section. So the stress around the chamber takes 2 nu of the push on its end, and
     of its moment; the models have it take nothing.
 
-    Parameters
-    ----------
-    section
-        Its dimensions, m.
-    pressure
-        P, Pa.
-    poisson_ratio
-        nu.
+    Args:
+        section: Its dimensions, m.
+        pressure: P, Pa.
+        poisson_ratio: nu.
 
-    Examples
-    --------
     >>> design_1 = Section(0.020, 0.004, 0.030, 0.0015)
     >>> round(prismatic_torque(design_1, 0.25e6, 0.49), 4)
     0.0102

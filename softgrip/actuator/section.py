@@ -18,19 +18,13 @@ from softgrip.errors import InvalidInputError
 class Section:
     """The dimensions of Figure 3.3 (d), m.
 
-    Attributes
-    ----------
-    top
-        a, from the neutral surface to the top, > t.
-    bottom
-        b, from the neutral surface to the bottom, > 0. Torque bends towards the bottom if b > t.
-    width
-        w, > 2 t.
-    wall
-        t, > 0.
+    Attributes:
+        top: a, from the neutral surface to the top, > t.
+        bottom: b, from the neutral surface to the bottom, > 0. Torque bends towards the bottom if b
+            > t.
+        width: w, > 2 t.
+        wall: t, > 0.
 
-    Examples
-    --------
     >>> from softgrip.units import MM, MPa
     >>> design_1 = Section(20 * MM, 4 * MM, 30 * MM, 1.5 * MM)
     >>> round(torque(design_1, 0.25 * MPa), 3)
@@ -84,8 +78,6 @@ def wall_area(section: Section) -> Number:
 def wall_stress_ratio(section: Section) -> Number:
     """Return ``P_w / P``, Eq. (3.3), by which the forces along the finger, Eq. (3.1), balance.
 
-    Examples
-    --------
     >>> round(wall_stress_ratio(Section(20.0, 4.0, 30.0, 1.5)), 4)
     2.2653
     """
@@ -106,12 +98,9 @@ def torque(section: Section, pressure: Number) -> Number:
     So the torque is positive if and only if b > t, and where it is, it grows with a, b and w and
     falls with t: each factor does.
 
-    Parameters
-    ----------
-    section
-        Its dimensions.
-    pressure
-        P, Pa, gauge; broadcasts.
+    Args:
+        section: Its dimensions.
+        pressure: P, Pa, gauge; broadcasts.
     """
     a, b, w, t = section.top, section.bottom, section.width, section.wall
     return pressure / 2 * wall_stress_ratio(section) * w * (a + b) * (b - t)

@@ -22,16 +22,12 @@ COLUMNS = ("sensor", "gain", "offset", "residual", "low_count", "high_count")
 class SensorLine:
     """A sensor's value as a line of the counts.
 
-    Attributes
-    ----------
-    gain
-        Unit per count.
-    offset
-        Value at count zero.
-    residual
-        Root mean square about the line, with N - 2 degrees of freedom; 0 for a nominal line.
-    low_count, high_count
-        Range in which the line was measured.
+    Attributes:
+        gain: Unit per count.
+        offset: Value at count zero.
+        residual: Root mean square about the line, with N - 2 degrees of freedom; 0 for a nominal
+            line.
+        low_count, high_count: Range in which the line was measured.
     """
 
     gain: float
@@ -48,20 +44,13 @@ class SensorLine:
 def fit_sensor(counts: ArrayLike, known: ArrayLike) -> SensorLine:
     """Fit a line through pairs by least squares.
 
-    Parameters
-    ----------
-    counts
-        Of the converter, shape (N,), N >= 3, not all equal.
-    known
-        What the sensor felt, Pa or rad, shape (N,).
+    Args:
+        counts: Of the converter, shape (N,), N >= 3, not all equal.
+        known: What the sensor felt, Pa or rad, shape (N,).
 
-    Raises
-    ------
-    InvalidInputError
-        If the pairs do not fix a line.
+    Raises:
+        InvalidInputError: If the pairs do not fix a line.
 
-    Examples
-    --------
     >>> fit_sensor([100, 200, 300], [0.0, 1.0, 2.0]).value(250).item()
     1.5
     """
@@ -83,16 +72,11 @@ def fit_sensor(counts: ArrayLike, known: ArrayLike) -> SensorLine:
 class BoardCalibration:
     """The sensors of one board.
 
-    Attributes
-    ----------
-    board
-        Identity of the board, or `ANY_BOARD`.
-    pressure
-        Pa gauge.
-    angles
-        rad, one for each finger.
-    name
-        For the header of logs.
+    Attributes:
+        board: Identity of the board, or `ANY_BOARD`.
+        pressure: Pa gauge.
+        angles: rad, one for each finger.
+        name: For the header of logs.
     """
 
     board: str
@@ -103,10 +87,8 @@ class BoardCalibration:
     def for_board(self, identity: str, port: str) -> "BoardCalibration":
         """Return the calibration, or refuse it for another board.
 
-        Raises
-        ------
-        WrongBoardError
-            If it was made with another board.
+        Raises:
+            WrongBoardError: If it was made with another board.
         """
         if self.board not in (identity, ANY_BOARD):
             raise WrongBoardError(
@@ -154,10 +136,8 @@ def save(
 def load(path: Path | str) -> BoardCalibration:
     """Read a calibration.
 
-    Raises
-    ------
-    DataFileError
-        If the file is not one.
+    Raises:
+        DataFileError: If the file is not one.
     """
     file = Path(path)
     describe(file)

@@ -63,33 +63,23 @@ class Board:
     Nothing moves because one connects. The board stops the motor by itself when this program
     hangs, dies, or asks for nothing new within `HUNG_AFTER` while the motor turns.
 
-    Parameters
-    ----------
-    port
-        A port or a URL as of `SerialLink`, or a `Link` in virtual time.
-    fingers
-        With a flex sensor, 1 or 2.
-    period
-        Sampling period, s, a whole number of the 25 ms of telemetry.
-    calibration
-        Of this board's sensors; None for the data sheets' lines.
-    pump
-        Its lead and area.
-    emulated
-        Whether the physics behind a port is simulated, which logs must say; behind a `Link` it is.
+    Args:
+        port: A port or a URL as of `SerialLink`, or a `Link` in virtual time.
+        fingers: With a flex sensor, 1 or 2.
+        period: Sampling period, s, a whole number of the 25 ms of telemetry.
+        calibration: Of this board's sensors; None for the data sheets' lines.
+        pump: Its lead and area.
+        emulated: Whether the physics behind a port is simulated, which logs must say; behind a
+            `Link` it is.
 
-    Attributes
-    ----------
-    session
-        The conversation; `reconnect` begins another one.
-    info, scale
-        What the board is, and its units.
+    Attributes:
+        session: The conversation; `reconnect` begins another one.
+        info, scale: What the board is, and its units.
 
-    Raises
-    ------
-    PortUnavailableError, NoBoardError, VersionMismatchError, WrongBoardError
-        If there is no such port or another program has it, nothing answers on it, the firmware
-        speaks another version, or the calibration is another board's.
+    Raises:
+        PortUnavailableError, NoBoardError, VersionMismatchError, WrongBoardError: If there is no
+            such port or another program has it, nothing answers on it, the firmware speaks another
+            version, or the calibration is another board's.
     """
 
     def __init__(
@@ -217,10 +207,9 @@ class Board:
     def advance(self, command: ArrayLike) -> Measurement:
         """Hold a motor speed for one period; see `Rig.advance`.
 
-        Raises
-        ------
-        ConnectionLostError
-            If the line broke, or nothing comes over it; `reconnect` finds it again.
+        Raises:
+            ConnectionLostError: If the line broke, or nothing comes over it; `reconnect` finds it
+                again.
         """
         limit = self.info.limits.speed
         speed = min(max(one_speed(command), -limit), limit)
@@ -232,11 +221,9 @@ class Board:
     def turn(self, speed: float, hold: float) -> None:
         """Turn at a speed [rad/s] until told otherwise, or a while after `hold` seconds.
 
-        Raises
-        ------
-        CommandRefusedError
-            After an emergency stop, before homing, or with a faulty sensor. A push against a limit
-            is held back and noted.
+        Raises:
+            CommandRefusedError: After an emergency stop, before homing, or with a faulty sensor. A
+                push against a limit is held back and noted.
         """
         self.session.alive_for(hold + HUNG_AFTER if speed else float("inf"))
         try:
@@ -268,10 +255,8 @@ class Board:
     def home(self) -> None:
         """Draw the plunger out to its switch, through an open valve where there is one.
 
-        Raises
-        ------
-        CommandRefusedError
-            If the switch is not found.
+        Raises:
+            CommandRefusedError: If the switch is not found.
         """
         self.stop()
         self.vent(open_valve=True)
@@ -306,12 +291,9 @@ class Board:
     def reconnect(self, within: float) -> None:
         """Find the same board again; the motor is then at rest.
 
-        Raises
-        ------
-        ConnectionLostError
-            If that does not happen within some seconds.
-        WrongBoardError
-            If another board, or other firmware, answers.
+        Raises:
+            ConnectionLostError: If that does not happen within some seconds.
+            WrongBoardError: If another board, or other firmware, answers.
         """
         if self.session.telemetry is not None:  # else this is a further attempt
             self._known = self.info, self.time, self.session.heard_at

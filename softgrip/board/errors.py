@@ -8,19 +8,12 @@ from softgrip.errors import SoftgripError
 class BoardError(SoftgripError):
     """A fault of a board or of the line to it.
 
-    Parameters
-    ----------
-    port
-        Where the board is.
-    message
-        What happened, and what to do.
-    command
-        What was asked of the board; empty if nothing.
-    state
-        What it last said of itself; empty if nothing.
+    Args:
+        port: Where the board is.
+        message: What happened, and what to do.
+        command: What was asked of the board; empty if nothing.
+        state: What it last said of itself; empty if nothing.
 
-    Examples
-    --------
     >>> str(BoardError("COM3", "no answer", command="SETPOINT", state="homed"))
     'COM3: no answer (command: SETPOINT; board: homed)'
     """

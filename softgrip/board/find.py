@@ -39,10 +39,8 @@ def candidates(ports: Iterable[Port] | None = None) -> list[Candidate]:
 
     Opening its port resets an Arduino, whatever runs on it.
 
-    Parameters
-    ----------
-    ports
-        As pyserial lists them; None for those of this computer.
+    Args:
+        ports: As pyserial lists them; None for those of this computer.
     """
     found = []
     for port in list_ports.comports() if ports is None else ports:
@@ -72,11 +70,9 @@ def _greeted(port: str) -> tuple[str, bool]:
 def find_board(ports: Iterable[Port] | None = None) -> Candidate:
     """Return the one board that answers.
 
-    Raises
-    ------
-    NoBoardError
-        If none does, or more than one: which to move is not for a program to guess. The message
-        lists what was found.
+    Raises:
+        NoBoardError: If none does, or more than one: which to move is not for a program to guess.
+            The message lists what was found.
     """
     seen = candidates(ports)
     answered = [one for one in seen if one.answered]

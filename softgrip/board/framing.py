@@ -27,8 +27,6 @@ class Frame:
 def checksum(data: bytes) -> int:
     """Return the CRC-16/CCITT-FALSE.
 
-    Examples
-    --------
     The check value of the catalogue of CRC algorithms:
 
     >>> hex(checksum(b"123456789"))
@@ -40,8 +38,6 @@ def checksum(data: bytes) -> int:
 def encode(frame: Frame) -> bytes:
     """Return a frame as it goes over the line, with its 0.
 
-    Examples
-    --------
     >>> encode(Frame(3, 0)).hex(" ")
     '02 03 03 5c 48 00'
     """
@@ -52,17 +48,12 @@ def encode(frame: Frame) -> bytes:
 class FrameReader:
     """Finds the frames in what comes over the line, piece by piece.
 
-    Attributes
-    ----------
-    good
-        Frames found.
-    bad
-        Frames thrown away: cut, too long, not stuffed as they should be, or with a wrong checksum.
-    lost
-        Bytes thrown away with them, without their 0.
+    Attributes:
+        good: Frames found.
+        bad: Frames thrown away: cut, too long, not stuffed as they should be, or with a wrong
+            checksum.
+        lost: Bytes thrown away with them, without their 0.
 
-    Examples
-    --------
     >>> reader, line = FrameReader(), encode(Frame(3, 0)) + b"noise" + encode(Frame(4, 1))
     >>> reader.feed(line[:3]), reader.feed(line[3:]), reader.bad
     ([], [Frame(id=3, sequence=0, payload=b'')], 1)

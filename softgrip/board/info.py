@@ -12,16 +12,11 @@ from softgrip.units import REV
 class Limits:
     """At what a board stops by itself.
 
-    Attributes
-    ----------
-    pressure
-        Gauge, Pa, above which nothing is pushed.
-    travel
-        Of the plunger from home, m.
-    speed, acceleration
-        Of the motor, rad/s and rad/s^2.
-    silence
-        Of the host, s.
+    Attributes:
+        pressure: Gauge, Pa, above which nothing is pushed.
+        travel: Of the plunger from home, m.
+        speed, acceleration: Of the motor, rad/s and rad/s^2.
+        silence: Of the host, s.
     """
 
     pressure: float
@@ -35,14 +30,10 @@ class Limits:
 class Scale:
     """From the board's units to SI and back.
 
-    Attributes
-    ----------
-    steps
-        A turn of the motor.
-    pump
-        Its lead makes travel of turns.
-    pressure
-        Line of the pressure sensor.
+    Attributes:
+        steps: A turn of the motor.
+        pump: Its lead makes travel of turns.
+        pressure: Line of the pressure sensor.
     """
 
     steps: int
@@ -88,20 +79,13 @@ class Scale:
 class BoardInfo:
     """Who a board is.
 
-    Attributes
-    ----------
-    identity
-        Its USB serial number, or, where it has none, its build.
-    build
-        Of the firmware, as in logs.
-    set_up
-        What the firmware was built for.
-    reset_cause
-        Of its last reset.
-    valve
-        Whether it can vent.
-    limits, bounds
-        In force, and the furthest that can be set.
+    Attributes:
+        identity: Its USB serial number, or, where it has none, its build.
+        build: Of the firmware, as in logs.
+        set_up: What the firmware was built for.
+        reset_cause: Of its last reset.
+        valve: Whether it can vent.
+        limits, bounds: In force, and the furthest that can be set.
     """
 
     identity: str

@@ -65,20 +65,15 @@ class Link(Protocol):
 class SerialLink:
     """A serial port, a pseudo-terminal or a socket.
 
-    Parameters
-    ----------
-    name
-        What pyserial's ``serial_for_url`` takes: "/dev/ttyACM0", "COM3", "socket://host:port".
+    Args:
+        name: What pyserial's ``serial_for_url`` takes: "/dev/ttyACM0", "COM3",
+            "socket://host:port".
 
-    Raises
-    ------
-    PortUnavailableError
-        If it cannot be opened.
-    PortBusyError
-        If another program has it, since two hosts that command one pump are a danger.
+    Raises:
+        PortUnavailableError: If it cannot be opened.
+        PortBusyError: If another program has it, since two hosts that command one pump are a
+            danger.
 
-    Notes
-    -----
     Opening the port of an Arduino resets it; its boot loader then listens for about a second, in
     which nothing answers.
 
@@ -129,10 +124,9 @@ class SerialLink:
     def read(self, timeout: float) -> bytes:
         """Return what has come; wait at most `timeout` seconds for a first byte.
 
-        Raises
-        ------
-        ConnectionLostError
-            If the line broke, once all that had been received from it has been returned.
+        Raises:
+            ConnectionLostError: If the line broke, once all that had been received from it has been
+                returned.
         """
         found = b""
         try:
@@ -164,17 +158,13 @@ class SerialLink:
 def holders(port: str) -> dict[int, str]:
     """Return the other programs that have a port open: names by process number.
 
-    Parameters
-    ----------
-    port
-        Path of a device, or of a link to it.
+    Args:
+        port: Path of a device, or of a link to it.
 
-    Returns
-    -------
-    dict
-        Empty where there is no ``/proc``, as on Windows and macOS. Programs of other users are
-        seen by root alone. Children of this process are not counted, since a fork inherits what is
-        open; nor is who serves a pseudo-terminal, having both its ends.
+    Returns:
+        dict: Empty where there is no ``/proc``, as on Windows and macOS. Programs of other users
+            are seen by root alone. Children of this process are not counted, since a fork inherits
+            what is open; nor is who serves a pseudo-terminal, having both its ends.
     """
     device = os.path.realpath(port)
     found = {}
@@ -204,12 +194,9 @@ def claim(descriptor: int) -> None:
 def release(descriptor: int, owner: int) -> None:
     """Take `claim` and pyserial's lock back, which a forked child would hold on to.
 
-    Parameters
-    ----------
-    descriptor
-        Of the port.
-    owner
-        Process that opened it; in another one, a child of it, nothing happens.
+    Args:
+        descriptor: Of the port.
+        owner: Process that opened it; in another one, a child of it, nothing happens.
     """
     if sys.platform != "win32" and os.getpid() == owner:
         with suppress(OSError):  # a line that is broken is nobody's

@@ -52,8 +52,6 @@ class Field:
 class Message:
     """A message: name, id (from the host below 128), words, fields.
 
-    Examples
-    --------
     >>> turn = Message("turn", 2, "Turn.", (Field("speed", "i", "step/s", ""),))
     >>> turn.pack(speed=-2).hex(), turn.unpack(turn.pack(speed=-2))
     ('feffffff', {'speed': -2})
@@ -73,10 +71,8 @@ class Message:
     def pack(self, **values: Any) -> bytes:
         """Return the payload that holds a value for each field.
 
-        Raises
-        ------
-        InvalidInputError
-            If a field is missing, unknown, or its value does not fit.
+        Raises:
+            InvalidInputError: If a field is missing, unknown, or its value does not fit.
         """
         names = [field.name for field in self.fields]
         if sorted(values) != sorted(names):
@@ -95,10 +91,8 @@ class Message:
     def unpack(self, payload: bytes) -> Values:
         """Return the values in a payload, a tuple for an array.
 
-        Raises
-        ------
-        InvalidInputError
-            If the payload's length is another one.
+        Raises:
+            InvalidInputError: If the payload's length is another one.
         """
         if len(payload) != self.layout.size:
             raise InvalidInputError(

@@ -46,18 +46,12 @@ TRIES = 4
 class Telemetry:
     """A telemetry frame.
 
-    Attributes
-    ----------
-    number
-        Of the frame, round from 65535.
-    time
-        Since the board's reset, s.
-    channels
-        Counts, in the order of `protocol.CHANNELS`.
-    position, speed
-        In steps, and in the board's unit of speed.
-    flags
-        The board's state.
+    Attributes:
+        number: Of the frame, round from 65535.
+        time: Since the board's reset, s.
+        channels: Counts, in the order of `protocol.CHANNELS`.
+        position, speed: In steps, and in the board's unit of speed.
+        flags: The board's state.
     """
 
     number: int
@@ -81,20 +75,15 @@ class Session:
     Every message can be said twice without harm, so that one without an answer is said again,
     under a new number.
 
-    Parameters
-    ----------
-    link
-        The line. If it is a real-time one, a thread listens and keeps the heart beating between
-        calls; else its clock stands still meanwhile, and the caller's waiting does both.
+    Args:
+        link: The line. If it is a real-time one, a thread listens and keeps the heart beating
+            between calls; else its clock stands still meanwhile, and the caller's waiting does
+            both.
 
-    Attributes
-    ----------
-    telemetry
-        The last frame; None before the first.
-    heard_at
-        When it came, by the line's clock, s.
-    lost
-        Telemetry frames that never came, by their numbers.
+    Attributes:
+        telemetry: The last frame; None before the first.
+        heard_at: When it came, by the line's clock, s.
+        lost: Telemetry frames that never came, by their numbers.
     """
 
     def __init__(self, link: Link) -> None:
@@ -132,14 +121,10 @@ class Session:
     def say(self, message: Message, payload: bytes, *, tries: int = TRIES) -> Values:
         """Say something and return the answer's fields.
 
-        Raises
-        ------
-        CommandRefusedError
-            If the board says no.
-        NoAnswerError
-            If it says nothing.
-        ConnectionLostError
-            If the line broke, or the board has begun anew.
+        Raises:
+            CommandRefusedError: If the board says no.
+            NoAnswerError: If it says nothing.
+            ConnectionLostError: If the line broke, or the board has begun anew.
         """
         for _ in range(tries):
             with self._news:
@@ -164,12 +149,9 @@ class Session:
     def greet(self, within: float = GREET_WITHIN) -> Values:
         """Say HELLO until a board answers, and return its answer.
 
-        Raises
-        ------
-        VersionMismatchError
-            If the firmware was made from another table of messages.
-        NoBoardError
-            If nothing answers.
+        Raises:
+            VersionMismatchError: If the firmware was made from another table of messages.
+            NoBoardError: If nothing answers.
         """
         payload = HELLO.pack(version=PROTOCOL_VERSION, table=TABLE)
         deadline = self.link.now() + within

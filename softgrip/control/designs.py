@@ -44,16 +44,11 @@ TUNING_TIME = 8.0
 class Design:
     """A controller and what it was designed on.
 
-    Attributes
-    ----------
-    system
-        The linear model, to angle [rad].
-    limit
-        Largest command, in the unit of the model's input.
-    curve
-        Reaction curve of the model.
-    tuned
-        From the gains of Ziegler and Nichols to the last ones.
+    Attributes:
+        system: The linear model, to angle [rad].
+        limit: Largest command, in the unit of the model's input.
+        curve: Reaction curve of the model.
+        tuned: From the gains of Ziegler and Nichols to the last ones.
     """
 
     system: control.StateSpace
@@ -72,14 +67,10 @@ def actuator_design(finger: SecondOrder, *, step: float = STEP, evaluations: int
 
     The command is limited to 0.15 MPa, up to which Section 4.3 takes the finger as linear.
 
-    Parameters
-    ----------
-    finger
-        The finger's linear model.
-    step
-        Step to tune for, rad, > 0.
-    evaluations
-        Most loops of the tuning, >= 1.
+    Args:
+        finger: The finger's linear model.
+        step: Step to tune for, rad, > 0.
+        evaluations: Most loops of the tuning, >= 1.
     """
     system = state_space(finger)
     return _design(system, SET_PRESSURE, reaction_curve(*unit_step(system)), step, evaluations)
@@ -93,12 +84,10 @@ def full_design(
     The command is limited to 5 rev/s. Since the model integrates, its reaction curve is the ramp in
     which its step response ends.
 
-    Parameters
-    ----------
-    finger, step, evaluations
-        As for `actuator_design`.
-    pump_gain
-        ``A l / (2 pi C_i)``, Pa/s per rad/s, > 0, with the capacity at the start (Section 4.3).
+    Args:
+        finger, step, evaluations: As for `actuator_design`.
+        pump_gain: ``A l / (2 pi C_i)``, Pa/s per rad/s, > 0, with the capacity at the start
+            (Section 4.3).
     """
     system = full_state_space(finger, pump_gain)
     curve = integrating_reaction_curve(*unit_step(system))
@@ -128,20 +117,13 @@ def linear_loop(
 ) -> LoopResult:
     """Run a PID on the linear model that it was designed on, from rest to a step.
 
-    Parameters
-    ----------
-    system, gains
-        Model and gains.
-    limit
-        Of the command, > 0; the controller knows of it.
-    step
-        rad, > 0.
-    duration
-        s.
-    noise
-        Root mean square of the measurement's noise, rad, >= 0.
-    runs
-        Number of runs, which differ in their noise.
+    Args:
+        system, gains: Model and gains.
+        limit: Of the command, > 0; the controller knows of it.
+        step: rad, > 0.
+        duration: s.
+        noise: Root mean square of the measurement's noise, rad, >= 0.
+        runs: Number of runs, which differ in their noise.
     """
     check_positive(step=step)
     plant = StateSpacePlant(system, initial=np.zeros((system.nstates, runs)), noise=noise)

@@ -40,15 +40,10 @@ class RobustDifferentiator:
     International Journal of Control 76 (2003) 924-941; M. Livne and A. Levant, "Proper
     discretization of homogeneous differentiators", Automatica 50 (2014) 2007-2014.
 
-    Parameters
-    ----------
-    jerk
-        Bound of the third derivative, rad/s^3, > 0.
-    period
-        s, > 0.
+    Args:
+        jerk: Bound of the third derivative, rad/s^3, > 0.
+        period: s, > 0.
 
-    Examples
-    --------
     >>> line = RobustDifferentiator(5.0)
     >>> for k in range(400):
     ...     found = line.update(0.5 * k * 0.025)
@@ -93,17 +88,11 @@ class PolynomialDifferentiator:
 
     A filter of Savitzky and Golay, taken at the newest sample, which a controller needs.
 
-    Parameters
-    ----------
-    window
-        Number of samples, above the order.
-    order
-        Of the polynomial, >= 2.
-    period
-        s, > 0.
+    Args:
+        window: Number of samples, above the order.
+        order: Of the polynomial, >= 2.
+        period: s, > 0.
 
-    Examples
-    --------
     >>> fit = PolynomialDifferentiator(5)
     >>> for k in range(5):
     ...     found = fit.update((0.025 * k) ** 2)

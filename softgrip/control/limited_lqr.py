@@ -35,12 +35,9 @@ class BestWeights:
 class TrueStates:
     """In place of a differentiator: the derivatives that a linear plant really has.
 
-    Parameters
-    ----------
-    plant
-        The plant of the loop.
-    to_derivatives
-        Matrix from its states to angle, rate and acceleration, shape (3, 3).
+    Args:
+        plant: The plant of the loop.
+        to_derivatives: Matrix from its states to angle, rate and acceleration, shape (3, 3).
     """
 
     def __init__(self, plant: StateSpacePlant, to_derivatives: Floats) -> None:
@@ -62,18 +59,12 @@ def limited_loop(
 ) -> LoopResult:
     """Run a regulator on its own linear model, with true states and a limited motor.
 
-    Parameters
-    ----------
-    finger, pump_gain
-        Model, with the finger's static gain; Pa/s per rad/s.
-    gain
-        K of `lqr.lqr_gain`, shape (3,), or (3, runs) for a map of gains.
-    step
-        rad, a number or shape (runs,).
-    duration
-        s.
-    limit
-        Largest motor speed, rad/s, > 0; infinity for none.
+    Args:
+        finger, pump_gain: Model, with the finger's static gain; Pa/s per rad/s.
+        gain: K of `lqr.lqr_gain`, shape (3,), or (3, runs) for a map of gains.
+        step: rad, a number or shape (runs,).
+        duration: s.
+        limit: Largest motor speed, rad/s, > 0; infinity for none.
     """
     target = np.asarray(step, dtype=np.float64)
     runs = np.broadcast_shapes(np.shape(gain)[1:], target.shape)
@@ -94,16 +85,11 @@ def best_within_limit(
 ) -> list[BestWeights]:
     """Return the weights that settle a step first within the motor's limit, for each step.
 
-    Parameters
-    ----------
-    finger, pump_gain
-        As of `limited_loop`.
-    steps
-        rad, shape (N,), > 0.
-    band
-        Share of the step, 0 to 1.
-    tried
-        The weights to choose from.
+    Args:
+        finger, pump_gain: As of `limited_loop`.
+        steps: rad, shape (N,), > 0.
+        band: Share of the step, 0 to 1.
+        tried: The weights to choose from.
     """
     sizes = np.asarray(steps, dtype=np.float64)
     gains = np.stack([lqr_gain(finger, weights) for weights in tried], axis=-1)

@@ -41,16 +41,12 @@ class Controller(Protocol):
 class LoopResult:
     """The record of a loop, sample by sample.
 
-    Attributes
-    ----------
-    time
-        s, shape (N,), from 0.
-    reference
-        rad, shape (N,) or (runs, N).
-    measured
-        rad, shape (N,) or (runs, N): the measurement at each time.
-    command
-        Command unit, same shape: what the plant is given from each time on, after limit and delay.
+    Attributes:
+        time: s, shape (N,), from 0.
+        reference: rad, shape (N,) or (runs, N).
+        measured: rad, shape (N,) or (runs, N): the measurement at each time.
+        command: Command unit, same shape: what the plant is given from each time on, after limit
+            and delay.
     """
 
     time: Floats
@@ -71,32 +67,21 @@ def run_loop(
 ) -> LoopResult:
     """Run a controller on a plant.
 
-    Parameters
-    ----------
-    plant
-        The plant, at rest or wherever it is.
-    controller
-        The controller; its own period must be the loop's.
-    reference
-        rad: a function of time [s], a number, or an array of shape (N,) or (runs, N) with
-        ``N = round(duration / period) + 1``.
-    duration
-        s, >= one period.
-    period
-        Time between samples, s, > 0.
-    limit
-        The command is cut to +-limit on its way to the plant, as a motor does. A controller that
-        does not know of the same limit winds up against it.
-    delay_samples
-        Periods by which the command comes late, >= 0; until the first comes, the plant gets 0.
+    Args:
+        plant: The plant, at rest or wherever it is.
+        controller: The controller; its own period must be the loop's.
+        reference: rad: a function of time [s], a number, or an array of shape (N,) or (runs, N)
+            with ``N = round(duration / period) + 1``.
+        duration: s, >= one period.
+        period: Time between samples, s, > 0.
+        limit: The command is cut to +-limit on its way to the plant, as a motor does. A controller
+            that does not know of the same limit winds up against it.
+        delay_samples: Periods by which the command comes late, >= 0; until the first comes, the
+            plant gets 0.
 
-    Raises
-    ------
-    InvalidInputError
-        If an argument is outside its range, or the reference has another length.
+    Raises:
+        InvalidInputError: If an argument is outside its range, or the reference has another length.
 
-    Examples
-    --------
     >>> import control
     >>> from softgrip.control.pid import PID, Gains
     >>> from softgrip.control.state_space_plant import StateSpacePlant

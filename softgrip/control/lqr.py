@@ -26,19 +26,13 @@ FINGER = SecondOrder(2.86, 0.7)
 class Weights:
     """The weights ``Q = p diag(q)``, Eq. (3.29), and R; by default those printed.
 
-    Attributes
-    ----------
-    p
-        Common factor, > 0.
-    q
-        Weights of the three states: the first > 0, the others >= 0.
-    R
-        Weight of the command, > 0. The gain depends on ``p / R`` alone.
+    Attributes:
+        p: Common factor, > 0.
+        q: Weights of the three states: the first > 0, the others >= 0.
+        R: Weight of the command, > 0. The gain depends on ``p / R`` alone.
 
-    Raises
-    ------
-    InvalidInputError
-        If a value is outside its range.
+    Raises:
+        InvalidInputError: If a value is outside its range.
     """
 
     p: float = 100.0
@@ -62,14 +56,10 @@ def input_gain(finger: SecondOrder, pump_gain: float, set_speed: float) -> float
     It holds the set motor speed omega_m, so the input u of Eq. (3.26) is a share of that speed. In
     the terms of Eq. (4.14), ``c / M`` is the finger's static gain times omega_n squared.
 
-    Parameters
-    ----------
-    finger
-        With its static gain, rad/Pa.
-    pump_gain
-        ``l A_s / (2 pi C_s)``, Pa/s per rad/s, > 0.
-    set_speed
-        omega_m, rad/s, > 0.
+    Args:
+        finger: With its static gain, rad/Pa.
+        pump_gain: ``l A_s / (2 pi C_s)``, Pa/s per rad/s, > 0.
+        set_speed: omega_m, rad/s, > 0.
     """
     check_positive(pump_gain=pump_gain, set_speed=set_speed)
     return finger.gain * finger.natural_frequency**2 * pump_gain * set_speed
@@ -80,12 +70,9 @@ def canonical_form(finger: SecondOrder, gain: float = 1.0) -> control.StateSpace
 
     The input is the share u of the set motor speed, the output the angle [rad].
 
-    Parameters
-    ----------
-    finger
-        Its natural frequency and damping ratio; its static gain is in `gain`.
-    gain
-        The element of C, rad/s^3: see `input_gain`.
+    Args:
+        finger: Its natural frequency and damping ratio; its static gain is in `gain`.
+        gain: The element of C, rad/s^3: see `input_gain`.
     """
     w, z = finger.natural_frequency, finger.damping_ratio
     return integrating_finger(2 * z * w, w**2, gain)
@@ -107,10 +94,8 @@ def derivatives_from_full_state(finger: SecondOrder) -> Floats:
     Those are pressure, angle and rate; the acceleration follows from them by Eq. (4.13). Divided by
     `input_gain` the result is the state of `canonical_form`.
 
-    Returns
-    -------
-    ndarray
-        Shape (3, 3), read-only.
+    Returns:
+        ndarray: Shape (3, 3), read-only.
     """
     w, z = finger.natural_frequency, finger.damping_ratio
     rows = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [finger.gain * w**2, -(w**2), -2 * z * w]]
@@ -120,8 +105,6 @@ def derivatives_from_full_state(finger: SecondOrder) -> Floats:
 def lqr_gain(finger: SecondOrder, weights: Weights) -> Floats:
     """Return K of ``u = -K x``, Eq. (3.30): ``R^-1 B' Y``, Y by the Riccati equation, shape (3,).
 
-    Examples
-    --------
     >>> lqr_gain(FINGER, Weights()).round(3).tolist()
     [10.0, 6.07, 1.304]
     """
@@ -157,15 +140,10 @@ def step_response(
 def linear_settling_time(finger: SecondOrder, weights: Weights, band: float) -> float:
     """Return the settling time of the closed loop without limit, noise or sampling, s.
 
-    Parameters
-    ----------
-    finger, weights
-        Plant and design.
-    band
-        Share of the step, 0 to 1.
+    Args:
+        finger, weights: Plant and design.
+        band: Share of the step, 0 to 1.
 
-    Examples
-    --------
     >>> round(linear_settling_time(FINGER, Weights(), 0.02), 2)  # printed: 0.8
     4.28
     """

@@ -22,14 +22,10 @@ from softgrip.errors import InvalidInputError
 class Certificate:
     """Signs that prove where a real closed-loop pole lies.
 
-    Attributes
-    ----------
-    pole_bound
-        ``-sqrt(q_1 / q_2)``, rad/s.
-    at_origin
-        phi(s) phi(-s) at s = 0.
-    at_bound
-        phi(s) phi(-s) at the bound: it holds no p.
+    Attributes:
+        pole_bound: ``-sqrt(q_1 / q_2)``, rad/s.
+        at_origin: phi(s) phi(-s) at s = 0.
+        at_bound: phi(s) phi(-s) at the bound: it holds no p.
     """
 
     pole_bound: float
@@ -47,13 +43,9 @@ def certificate(finger: SecondOrder, weights: Weights) -> Certificate:
 
     They do for every finger with a damping ratio below 1.
 
-    Raises
-    ------
-    InvalidInputError
-        If q_3 is not 0 or q_2 is: there is no such bound then.
+    Raises:
+        InvalidInputError: If q_3 is not 0 or q_2 is: there is no such bound then.
 
-    Examples
-    --------
     >>> found = certificate(SecondOrder(2.86, 0.7), Weights())
     >>> round(found.pole_bound, 3), found.proves
     (-1.826, True)
@@ -85,20 +77,13 @@ def settling_floor(finger: SecondOrder, weights: Weights, band: float) -> float:
     omega_n^2`` and ``c >= -1``: compare the coefficients of phi(s) phi(-s) with those of its
     factors.
 
-    Parameters
-    ----------
-    finger, weights
-        Plant and design; p and R have no influence.
-    band
-        Share of the step, 0 to 1.
+    Args:
+        finger, weights: Plant and design; p and R have no influence.
+        band: Share of the step, 0 to 1.
 
-    Raises
-    ------
-    InvalidInputError
-        If these conditions, or those of `certificate`, do not hold.
+    Raises:
+        InvalidInputError: If these conditions, or those of `certificate`, do not hold.
 
-    Examples
-    --------
     >>> [round(settling_floor(SecondOrder(2.86, 0.7), Weights(), b), 2) for b in (0.02, 0.1)]
     [1.01, 0.81]
     """
@@ -116,8 +101,6 @@ def settling_floor(finger: SecondOrder, weights: Weights, band: float) -> float:
 def settling_at_the_bound(weights: Weights, band: float) -> float:
     """Return the settling time for p to infinity, where the pole at its bound alone is left, s.
 
-    Examples
-    --------
     >>> round(settling_at_the_bound(Weights(), 0.02), 2)
     2.14
     """

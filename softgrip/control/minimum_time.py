@@ -19,22 +19,14 @@ def farthest(system: control.StateSpace, limit: float, time: ArrayLike) -> Float
     not, whatever it knows, is farther at that time; where the impulse response does not change
     sign, the full command is what gets there, and the plant does not stop then.
 
-    Parameters
-    ----------
-    system
-        One input, one output, continuous, D = 0.
-    limit
-        Largest absolute command, > 0.
-    time
-        Time since the start, s, >= 0, any shape.
+    Args:
+        system: One input, one output, continuous, D = 0.
+        limit: Largest absolute command, > 0.
+        time: Time since the start, s, >= 0, any shape.
 
-    Returns
-    -------
-    ndarray
-        Output unit, shape of `time`.
+    Returns:
+        ndarray: Output unit, shape of `time`.
 
-    Examples
-    --------
     >>> double_integrator = control.ss([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], 0)
     >>> farthest(double_integrator, 2.0, [1.0, 3.0]).round(6).tolist()
     [1.0, 9.0]
@@ -67,35 +59,21 @@ def minimum_settling_time(
     samples from then on lie in the band? It knows the plant and the reference beforehand, and has
     no noise to fear, so what a controller of the same period does is never faster.
 
-    Parameters
-    ----------
-    system
-        One input, one output, continuous, D = 0.
-    change
-        Step of the output, > 0.
-    limit
-        Largest absolute command, > 0.
-    band
-        Half width of the band, in the unit of `change`, > 0.
-    hold
-        Time for which the output must stay in the band, s, > 0. A longer one asks for more.
-    period
-        Time between two commands, s, > 0.
-    longest
-        Time at which to give up, s.
+    Args:
+        system: One input, one output, continuous, D = 0.
+        change: Step of the output, > 0.
+        limit: Largest absolute command, > 0.
+        band: Half width of the band, in the unit of `change`, > 0.
+        hold: Time for which the output must stay in the band, s, > 0. A longer one asks for more.
+        period: Time between two commands, s, > 0.
+        longest: Time at which to give up, s.
 
-    Returns
-    -------
-    float
-        s, a multiple of the period; infinite if not even `longest` suffices.
+    Returns:
+        float: s, a multiple of the period; infinite if not even `longest` suffices.
 
-    Raises
-    ------
-    InvalidInputError
-        If an argument is outside its range.
+    Raises:
+        InvalidInputError: If an argument is outside its range.
 
-    Examples
-    --------
     >>> double_integrator = control.ss([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], 0)
     >>> round(minimum_settling_time(double_integrator, 1.0, 1.0, band=1e-6), 3)  # 2 sqrt(1)
     2.0
@@ -146,33 +124,20 @@ def largest_step(
     within the band where that helps; so no controller of the same period does more. Samples alone
     are looked at, which is worth a part of a period.
 
-    Parameters
-    ----------
-    system
-        One input, one output, continuous, D = 0.
-    limit
-        Largest absolute command, > 0.
-    time
-        From which on all samples lie in the band, s, a period at least.
-    band
-        Half width of the band as a share of the change, 0 to 1.
-    hold
-        Time for which the output must stay there, s, > 0.
-    period
-        Time between two commands, s, > 0.
+    Args:
+        system: One input, one output, continuous, D = 0.
+        limit: Largest absolute command, > 0.
+        time: From which on all samples lie in the band, s, a period at least.
+        band: Half width of the band as a share of the change, 0 to 1.
+        hold: Time for which the output must stay there, s, > 0.
+        period: Time between two commands, s, > 0.
 
-    Returns
-    -------
-    float
-        Output unit.
+    Returns:
+        float: Output unit.
 
-    Raises
-    ------
-    InvalidInputError
-        If an argument is outside its range.
+    Raises:
+        InvalidInputError: If an argument is outside its range.
 
-    Examples
-    --------
     >>> double_integrator = control.ss([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], 0)
     >>> round(largest_step(double_integrator, 1.0, 2.0, band=1e-6), 1)  # (2 / 2)^2
     1.0

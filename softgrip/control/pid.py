@@ -21,18 +21,15 @@ DerivativeOn = Literal["error", "measurement"]
 class Gains:
     """Gains of the parallel form ``kp e + ki int e + kd de/dt``.
 
-    Attributes
-    ----------
-    kp, ki, kd
-        Command unit per rad, per rad s, and times s per rad; finite. Floats, or for a map of gains
-        arrays of one shape (runs,), which `PID` takes and `pid_state_space` does not.
-    derivative_filter
-        Time constant of the derivative's low pass, s, > 0, so that the controller is proper.
+    Attributes:
+        kp, ki, kd: Command unit per rad, per rad s, and times s per rad; finite. Floats, or for a
+            map of gains arrays of one shape (runs,), which `PID` takes and `pid_state_space` does
+            not.
+        derivative_filter: Time constant of the derivative's low pass, s, > 0, so that the
+            controller is proper.
 
-    Raises
-    ------
-    InvalidInputError
-        If a gain is not finite or the filter is not above zero.
+    Raises:
+        InvalidInputError: If a gain is not finite or the filter is not above zero.
     """
 
     kp: float | Floats
@@ -54,27 +51,17 @@ class PID:
     while the command is at a limit, an error that would push it further is not integrated. That
     needs no further parameter, as back-calculation would.
 
-    Parameters
-    ----------
-    gains
-        The gains.
-    limits
-        Least and largest command, the first below the second.
-    period
-        Time between updates, s, > 0.
-    derivative_on
-        "error", as in `pid_state_space`, or "measurement", which does not kick when the reference
-        jumps.
-    anti_windup
-        False to let the integral grow at the limits, for comparison.
+    Args:
+        gains: The gains.
+        limits: Least and largest command, the first below the second.
+        period: Time between updates, s, > 0.
+        derivative_on: "error", as in `pid_state_space`, or "measurement", which does not kick when
+            the reference jumps.
+        anti_windup: False to let the integral grow at the limits, for comparison.
 
-    Raises
-    ------
-    InvalidInputError
-        If the limits are not in order, or another argument is outside its range.
+    Raises:
+        InvalidInputError: If the limits are not in order, or another argument is outside its range.
 
-    Examples
-    --------
     >>> pid = PID(Gains(kp=2.0, ki=4.0), limits=(-3, 3))
     >>> [round(float(pid.update(1.0, y)), 6) for y in (0.0, 0.0, 0.5)]
     [2.1, 2.2, 1.25]
@@ -112,15 +99,11 @@ class PID:
         Before the first update the error was zero, so that a reference that starts with a step
         acts as one; for a derivative on the measurement, the measurement was what it is.
 
-        Parameters
-        ----------
-        reference, measurement
-            rad, floats or shape (runs,); they broadcast.
+        Args:
+            reference, measurement: rad, floats or shape (runs,); they broadcast.
 
-        Returns
-        -------
-        ndarray
-            Command within the limits, shape () or (runs,).
+        Returns:
+            ndarray: Command within the limits, shape () or (runs,).
         """
         measured = np.asarray(measurement, dtype=np.float64)
         error = np.asarray(reference, dtype=np.float64) - measured
@@ -150,8 +133,6 @@ def pid_state_space(gains: Gains) -> control.StateSpace:
     gain is zero, so that a closed loop has no mode that nothing sees. InvalidInputError is raised
     for arrays of gains.
 
-    Examples
-    --------
     >>> pid_state_space(Gains(1.0, 2.0)).nstates, pid_state_space(Gains(1.0, 2.0, 3.0)).nstates
     (1, 2)
     """

@@ -36,15 +36,10 @@ SET_PRESSURE = 0.15 * MPa
 class PressureAsSpeed:
     """Send a share of the set pressure as the same share of the set speed.
 
-    Parameters
-    ----------
-    controller
-        Gives a pressure, Pa.
-    set_pressure, set_speed
-        Pa and rad/s, > 0: what a share of 1 stands for.
+    Args:
+        controller: Gives a pressure, Pa.
+        set_pressure, set_speed: Pa and rad/s, > 0: what a share of 1 stands for.
 
-    Examples
-    --------
     >>> from softgrip.control.pid import PID, Gains
     >>> half = PressureAsSpeed(PID(Gains(kp=75e3)), set_speed=10.0)
     >>> float(half.update(1.0, 0.0))
@@ -70,19 +65,13 @@ class PressureAsSpeed:
 class PressureByPlunger:
     """Send the plunger to the place that holds the pressure, by a pump of constant capacity.
 
-    Parameters
-    ----------
-    controller
-        Gives a pressure, Pa.
-    pump_gain
-        ``A l / (2 pi C_i)`` of Eq. (4.5), Pa/s per rad/s, > 0.
-    speed_limit
-        rad/s, > 0. Where the motor is too slow the rest of the way is made up for later.
-    period
-        s, > 0.
+    Args:
+        controller: Gives a pressure, Pa.
+        pump_gain: ``A l / (2 pi C_i)`` of Eq. (4.5), Pa/s per rad/s, > 0.
+        speed_limit: rad/s, > 0. Where the motor is too slow the rest of the way is made up for
+            later.
+        period: s, > 0.
 
-    Examples
-    --------
     >>> from softgrip.control.pid import PID, Gains
     >>> pump = PressureByPlunger(PID(Gains(kp=1e3)), 1e3, speed_limit=30.0)
     >>> [float(pump.update(1.0, 0.0)) for _ in range(3)]  # a turn of 1 rad in two periods

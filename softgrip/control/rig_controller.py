@@ -29,10 +29,8 @@ class RigController(Protocol):
 class CommandSequence:
     """A controller that looks at nothing: a sequence of commands, then rest.
 
-    Parameters
-    ----------
-    commands
-        rad/s, shape (N,).
+    Args:
+        commands: rad/s, shape (N,).
     """
 
     def __init__(self, commands: ArrayLike) -> None:
@@ -47,15 +45,10 @@ class CommandSequence:
 class Tracking:
     """A law of one angle on a rig: it is given the mean of the fingers', and follows a reference.
 
-    Parameters
-    ----------
-    controller
-        Of one angle.
-    reference
-        rad, a number, or shape (N,), one a period; after them the last is held.
+    Args:
+        controller: Of one angle.
+        reference: rad, a number, or shape (N,), one a period; after them the last is held.
 
-    Examples
-    --------
     >>> from softgrip.control.pid import PID, Gains
     >>> rising = Tracking(PID(Gains(kp=2.0)), [0.0, 0.5])
     >>> [rising.update([[0.0], [0.2]]).tolist() for _ in range(3)]

@@ -23,22 +23,14 @@ def staircase(
     The text names the time alone: increments and the top are assumed, and the edges are steps,
     since it speaks of a "desired command change".
 
-    Parameters
-    ----------
-    increment
-        rad, > 0.
-    top
-        rad, a multiple of the increment.
-    hold, period
-        s, > 0; each level takes ``round(hold / period)`` samples.
+    Args:
+        increment: rad, > 0.
+        top: rad, a multiple of the increment.
+        hold, period: s, > 0; each level takes ``round(hold / period)`` samples.
 
-    Raises
-    ------
-    InvalidInputError
-        If an argument is outside its range.
+    Raises:
+        InvalidInputError: If an argument is outside its range.
 
-    Examples
-    --------
     >>> staircase(increment=1.0, top=2.0, hold=2.0, period=1.0).tolist()
     [0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 1.0, 1.0, 0.0, 0.0]
     """

@@ -29,19 +29,12 @@ class StateFeedback:
     that gain contains. So the motor is sent ``omega_m u``, and the loop cuts it at the motor's
     limit. Nothing integrates here, so nothing winds up.
 
-    Parameters
-    ----------
-    gain
-        K, shape (3,), or (3, runs) for a map of gains.
-    input_gain
-        The gain in C, rad/s^3, > 0: see `lqr.input_gain`.
-    differentiator
-        Gives the derivatives; its period is the loop's.
-    set_speed
-        omega_m, rad/s, > 0, as in `input_gain`.
+    Args:
+        gain: K, shape (3,), or (3, runs) for a map of gains.
+        input_gain: The gain in C, rad/s^3, > 0: see `lqr.input_gain`.
+        differentiator: Gives the derivatives; its period is the loop's.
+        set_speed: omega_m, rad/s, > 0, as in `input_gain`.
 
-    Examples
-    --------
     >>> from softgrip.control.differentiator import PolynomialDifferentiator
     >>> regulator = StateFeedback([2.0, 0.0, 0.0], 4.0, PolynomialDifferentiator(3), set_speed=10.0)
     >>> float(regulator.update(1.0, 0.0))
@@ -63,10 +56,8 @@ class StateFeedback:
     def update(self, reference: ArrayLike, measurement: ArrayLike) -> Floats:
         """Return the motor speed for one period, rad/s, shape () or (runs,).
 
-        Parameters
-        ----------
-        reference, measurement
-            rad, floats or shape (runs,).
+        Args:
+            reference, measurement: rad, floats or shape (runs,).
         """
         angle, rate, acceleration = self.differentiator.update(measurement)
         K = self.speed_gain
@@ -83,21 +74,14 @@ class ObserverFeedback:
     what it does not know enters as a disturbance of the command. The state and u are read as in
     `StateFeedback`. It starts at rest at an angle of 0.
 
-    Parameters
-    ----------
-    gain
-        K, shape (3,), or (3, runs) for a map of gains.
-    finger, input_gain
-        Plant of the design: `lqr.canonical_form` and `lqr.input_gain`.
-    noise
-        Root mean square of the measurement's noise, rad, > 0 (Section 6.4: 2 deg).
-    disturbance
-        Root mean square of that of the command, as a share of the set speed, > 0: how little the
-        model is trusted. The filter depends on its ratio to the noise alone.
-    limit, set_speed
-        Largest motor speed, and that which a share of 1 means, rad/s, > 0.
-    period
-        s, > 0.
+    Args:
+        gain: K, shape (3,), or (3, runs) for a map of gains.
+        finger, input_gain: Plant of the design: `lqr.canonical_form` and `lqr.input_gain`.
+        noise: Root mean square of the measurement's noise, rad, > 0 (Section 6.4: 2 deg).
+        disturbance: Root mean square of that of the command, as a share of the set speed, > 0: how
+            little the model is trusted. The filter depends on its ratio to the noise alone.
+        limit, set_speed: Largest motor speed, and that which a share of 1 means, rad/s, > 0.
+        period: s, > 0.
     """
 
     def __init__(
@@ -145,10 +129,8 @@ class ObserverFeedback:
     def update(self, reference: ArrayLike, measurement: ArrayLike) -> Floats:
         """Return the motor speed for one period, rad/s, within the limit, shape () or (runs,).
 
-        Parameters
-        ----------
-        reference, measurement
-            rad, floats or shape (runs,).
+        Args:
+            reference, measurement: rad, floats or shape (runs,).
         """
         y, r = np.asarray(measurement, np.float64), np.asarray(reference, np.float64)
         miss = y - self.input_gain * self._predicted[0]

@@ -15,26 +15,16 @@ from softgrip.errors import InvalidInputError
 class StateSpacePlant:
     """A state space with a held command, for one run or a batch of runs.
 
-    Parameters
-    ----------
-    system
-        One input, one output, continuous, no direct feedthrough.
-    initial
-        State at the start, shape (n,) or (n, runs); rest if None.
-    quantum
-        Step of the measurement, rad, >= 0: 0 for none.
-    noise
-        Standard deviation of the measurement before it is quantised, rad, >= 0.
-    seed
-        Of the noise.
+    Args:
+        system: One input, one output, continuous, no direct feedthrough.
+        initial: State at the start, shape (n,) or (n, runs); rest if None.
+        quantum: Step of the measurement, rad, >= 0: 0 for none.
+        noise: Standard deviation of the measurement before it is quantised, rad, >= 0.
+        seed: Of the noise.
 
-    Raises
-    ------
-    InvalidInputError
-        If the system has another form or a number is negative.
+    Raises:
+        InvalidInputError: If the system has another form or a number is negative.
 
-    Examples
-    --------
     >>> plant = StateSpacePlant(control.ss(0, 1, 1, 0), quantum=0.25)
     >>> float(plant.advance(1.0, 0.6)), plant.state.round(6).tolist()
     (0.5, [0.6])
@@ -92,17 +82,11 @@ class StateSpacePlant:
 def pulse_response(system: control.StateSpace, period: float, samples: int) -> Floats:
     """Return the output at the end of each period after a command of 1 held for the first, (N,).
 
-    Parameters
-    ----------
-    system
-        As of `StateSpacePlant`.
-    period
-        s, > 0.
-    samples
-        N, >= 1.
+    Args:
+        system: As of `StateSpacePlant`.
+        period: s, > 0.
+        samples: N, >= 1.
 
-    Examples
-    --------
     >>> pulse_response(control.ss(0, 1, 1, 0), 0.5, 3).tolist()
     [0.5, 0.5, 0.5]
     """

@@ -13,16 +13,11 @@ from softgrip.errors import InvalidInputError
 class StepMetrics:
     """The measures of a step response, each a float array of shape () or (runs,).
 
-    Attributes
-    ----------
-    settling_time
-        s; infinite where the response does not settle within the record.
-    overshoot
-        Share of the change, >= 0.
-    rise_time
-        From 10 to 90 % of the change, s; infinite where 90 % is not reached.
-    steady_state_error
-        Target minus mean of the end of the record, rad.
+    Attributes:
+        settling_time: s; infinite where the response does not settle within the record.
+        overshoot: Share of the change, >= 0.
+        rise_time: From 10 to 90 % of the change, s; infinite where 90 % is not reached.
+        steady_state_error: Target minus mean of the end of the record, rad.
     """
 
     settling_time: Floats
@@ -60,35 +55,23 @@ def settling_time(
 ) -> Floats:
     """Return the time after which the output stays within a band.
 
-    Parameters
-    ----------
-    time
-        Time since the step, s, shape (N,), increasing.
-    output
-        rad, shape (N,) or (runs, N).
-    final
-        Middle of the band, rad, float or (runs,): the target, or, for a response that keeps an
-        error, its own `final_value`. The two answer different questions.
-    initial
-        Output before the step, rad, float or (runs,).
-    band
-        Half width, > 0: a share of ``final - initial`` (0.02 and 0.05 are usual), or rad.
-    absolute
-        True if the band is in rad.
+    Args:
+        time: Time since the step, s, shape (N,), increasing.
+        output: rad, shape (N,) or (runs, N).
+        final: Middle of the band, rad, float or (runs,): the target, or, for a response that keeps
+            an error, its own `final_value`. The two answer different questions.
+        initial: Output before the step, rad, float or (runs,).
+        band: Half width, > 0: a share of ``final - initial`` (0.02 and 0.05 are usual), or rad.
+        absolute: True if the band is in rad.
 
-    Returns
-    -------
-    ndarray
-        s, shape () or (runs,), interpolated between samples; 0 if the output was never outside,
-        infinite if the last sample is outside, NaN if a sample is NaN.
+    Returns:
+        ndarray: s, shape () or (runs,), interpolated between samples; 0 if the output was never
+            outside, infinite if the last sample is outside, NaN if a sample is NaN.
 
-    Raises
-    ------
-    InvalidInputError
-        If shapes do not fit, the time does not increase, or the band is not above zero.
+    Raises:
+        InvalidInputError: If shapes do not fit, the time does not increase, or the band is not
+            above zero.
 
-    Examples
-    --------
     >>> t = np.arange(0, 8, 0.001)
     >>> settling_time(t, 1 - np.exp(-t), final=1.0).round(3).item()  # ln 50
     3.912

@@ -26,18 +26,12 @@ LEAST_GAIN = 0.01
 class Tuned:
     """The result of a tuning.
 
-    Attributes
-    ----------
-    gains
-        The best gains.
-    start
-        Those that it began with.
-    history
-        Best objective after each evaluation, shape (evaluations,): it never rises.
-    evaluations
-        Number of loops run.
-    converged
-        Whether the search ended by itself and not by the number of evaluations.
+    Attributes:
+        gains: The best gains.
+        start: Those that it began with.
+        history: Best objective after each evaluation, shape (evaluations,): it never rises.
+        evaluations: Number of loops run.
+        converged: Whether the search ended by itself and not by the number of evaluations.
     """
 
     gains: Gains
@@ -54,14 +48,11 @@ class Itae:
     The error counts as a share of the step, so that one weight serves all steps; a batch of runs
     counts by its mean.
 
-    Attributes
-    ----------
-    overshoot_weight
-        s**2 for an overshoot of 100 %, >= 0.
-    effort_weight
-        s**2 for a command that goes up and down by the whole `command_scale` in each sample, >= 0.
-    command_scale
-        Command unit, > 0: the limit, where there is one.
+    Attributes:
+        overshoot_weight: s**2 for an overshoot of 100 %, >= 0.
+        effort_weight: s**2 for a command that goes up and down by the whole `command_scale` in each
+            sample, >= 0.
+        command_scale: Command unit, > 0: the limit, where there is one.
     """
 
     overshoot_weight: float = 1.0
@@ -95,21 +86,14 @@ def tune(
     derivative's filter is kept. The simplex starts anew until that gains less than `LEAST_GAIN`.
     It is deterministic where `simulate` is, and finds a local minimum.
 
-    Parameters
-    ----------
-    simulate
-        Runs a loop with given gains: on a model or on a rig.
-    start
-        Gains to start with, at least one other than zero.
-    objective
-        What to make small; `Itae()` if None. One that is not finite counts as `LOST`.
-    evaluations
-        Most loops to run, >= 1.
+    Args:
+        simulate: Runs a loop with given gains: on a model or on a rig.
+        start: Gains to start with, at least one other than zero.
+        objective: What to make small; `Itae()` if None. One that is not finite counts as `LOST`.
+        evaluations: Most loops to run, >= 1.
 
-    Raises
-    ------
-    InvalidInputError
-        If all gains are zero.
+    Raises:
+        InvalidInputError: If all gains are zero.
     """
     judge = Itae() if objective is None else objective
     names = [name for name in ("kp", "ki", "kd") if getattr(start, name) != 0]

@@ -29,14 +29,10 @@ FILTER_RATIO = 10.0
 class ReactionCurve:
     """A tangent to a step response.
 
-    Attributes
-    ----------
-    delay
-        L, where the tangent meets the level before the step, s after the step, > 0.
-    slope
-        R, slope of the tangent per unit of the step, rad/s per command unit, not 0.
-    gain
-        Rise of the response per unit of the step; infinite for an integrating process.
+    Attributes:
+        delay: L, where the tangent meets the level before the step, s after the step, > 0.
+        slope: R, slope of the tangent per unit of the step, rad/s per command unit, not 0.
+        gain: Rise of the response per unit of the step; infinite for an integrating process.
     """
 
     delay: float
@@ -54,26 +50,18 @@ def reaction_curve(
 ) -> ReactionCurve:
     """Lay the tangent at the inflexion of a response that comes to rest.
 
-    Parameters
-    ----------
-    time
-        Time since the step, s, shape (N,), increasing.
-    output
-        Response, rad, shape (N,); the first sample is the level before the step, the last the one
-        that it comes to.
-    step
-        Height of the step, command unit, not 0.
-    window
-        Samples over which a slope is taken, >= 2: more for a noisy record.
+    Args:
+        time: Time since the step, s, shape (N,), increasing.
+        output: Response, rad, shape (N,); the first sample is the level before the step, the last
+            the one that it comes to.
+        step: Height of the step, command unit, not 0.
+        window: Samples over which a slope is taken, >= 2: more for a noisy record.
 
-    Raises
-    ------
-    InvalidInputError
-        If the arrays do not fit each other, the response has not come to rest (its mean slope over
-        the last tenth is above 5 % of the steepest), or the tangent gives no delay.
+    Raises:
+        InvalidInputError: If the arrays do not fit each other, the response has not come to rest
+            (its mean slope over the last tenth is above 5 % of the steepest), or the tangent gives
+            no delay.
 
-    Examples
-    --------
     >>> t = np.arange(0, 30, 0.01)
     >>> curve = reaction_curve(t, 1 - np.exp(-t) * (1 + t + t**2 / 2))
     >>> round(curve.delay, 3), round(curve.delay * curve.slope, 3)
@@ -105,21 +93,14 @@ def integrating_reaction_curve(
     Such a response has no level to come to: it ends in a ramp, whose slope is R and whose meeting
     with the level before the step is L. For Eq. (4.15) L is ``2 zeta / omega_n``.
 
-    Parameters
-    ----------
-    time, output, step
-        As for `reaction_curve`.
-    tail
-        Share of the record, at its end, that is taken as the ramp, 0 to 1.
+    Args:
+        time, output, step: As for `reaction_curve`.
+        tail: Share of the record, at its end, that is taken as the ramp, 0 to 1.
 
-    Raises
-    ------
-    InvalidInputError
-        If the arrays do not fit, the slopes of the two halves of the end differ by more than 5 %,
-        or the asymptote gives no delay.
+    Raises:
+        InvalidInputError: If the arrays do not fit, the slopes of the two halves of the end differ
+            by more than 5 %, or the asymptote gives no delay.
 
-    Examples
-    --------
     >>> t = np.arange(0, 5, 0.01)
     >>> curve = integrating_reaction_curve(t, 3.0 * np.maximum(t - 0.4, 0), step=2.0)
     >>> round(curve.delay, 6), round(curve.slope, 6)
@@ -189,22 +170,14 @@ def ziegler_nichols(
 ) -> Gains:
     """Return the gains of Ziegler and Nichols for a reaction curve.
 
-    Parameters
-    ----------
-    curve
-        Delay and slope; the rule uses no other.
-    kind
-        "P", "PI" or "PID".
-    filter_ratio
-        Derivative time by filter time constant, > 0.
+    Args:
+        curve: Delay and slope; the rule uses no other.
+        kind: "P", "PI" or "PID".
+        filter_ratio: Derivative time by filter time constant, > 0.
 
-    Raises
-    ------
-    InvalidInputError
-        If the kind is unknown.
+    Raises:
+        InvalidInputError: If the kind is unknown.
 
-    Examples
-    --------
     >>> ziegler_nichols(ReactionCurve(delay=0.5, slope=2.0), filter_ratio=10)
     Gains(kp=1.2, ki=1.2, kd=0.3, derivative_filter=0.025)
     """

@@ -24,14 +24,10 @@ POWER = 2.365
 class Agreement:
     """Two quantities that should be the same.
 
-    Attributes
-    ----------
-    name
-        Key.
-    what
-        Both, in words.
-    ratio
-        First over second; 1 where they agree.
+    Attributes:
+        name: Key.
+        what: Both, in words.
+        ratio: First over second; 1 where they agree.
     """
 
     name: str
@@ -50,8 +46,6 @@ def section_integral(fractional_power: float, width: float, height: float) -> fl
     A fibre at distance y from the middle is strained by ``kappa y``; its stress by Ludwick's law,
     Eq. (5.2), odd in y, has the lever y.
 
-    Examples
-    --------
     >>> round(section_integral(1.0, 12.0, 1.0), 9)
     1.0
     """
@@ -67,19 +61,12 @@ def tip_loaded_angle(
 
     At s the moment is ``force (length - s)``, and the curvature ``(moment / (E I_n))**(1/n)``.
 
-    Parameters
-    ----------
-    force
-        N, across the beam.
-    bending_stiffness
-        ``E I_n``, N m^(1 + n).
-    fractional_power
-        n, >= 1.
-    length
-        m.
+    Args:
+        force: N, across the beam.
+        bending_stiffness: ``E I_n``, N m^(1 + n).
+        fractional_power: n, >= 1.
+        length: m.
 
-    Examples
-    --------
     >>> round(tip_loaded_angle(2.0, 1.0, 1.0, 1.0), 9)  # F L**2 / (2 E I)
     1.0
     """
@@ -100,8 +87,6 @@ def pressed_angle(
 def agreements(power: float = POWER) -> tuple[Agreement, ...]:
     """Compare the equations; `power` is the n of those that hold for any.
 
-    Examples
-    --------
     >>> [a.name for a in agreements() if not a.holds]
     ['moment', 'spring', 'force', 'moment-3', 'moment-integral', 'spring-3', 'pressed']
     """

@@ -29,22 +29,15 @@ class Estimate:
 class Identified:
     """A second-order system fitted to a record.
 
-    Attributes
-    ----------
-    natural_frequency
-        omega_n of Eq. (4.13), rad/s.
-    damping_ratio
-        zeta of Eq. (4.13), dimensionless.
-    gain
-        Static gain, rad/Pa (output unit by input unit, when they are others).
-    offset
-        Output at rest before the record, rad.
-    fitted
-        Output of the fitted system at the samples, rad, shape (N,).
-    rms
-        Root mean square of the residual, rad.
-    fit_percent
-        ``100 (1 - |residual| / |output - mean|)``: 100 is perfect, 0 no better than the mean.
+    Attributes:
+        natural_frequency: omega_n of Eq. (4.13), rad/s.
+        damping_ratio: zeta of Eq. (4.13), dimensionless.
+        gain: Static gain, rad/Pa (output unit by input unit, when they are others).
+        offset: Output at rest before the record, rad.
+        fitted: Output of the fitted system at the samples, rad, shape (N,).
+        rms: Root mean square of the residual, rad.
+        fit_percent: ``100 (1 - |residual| / |output - mean|)``: 100 is perfect, 0 no better than
+            the mean.
     """
 
     natural_frequency: Estimate
@@ -75,27 +68,17 @@ def identify(
     rest before the record starts. Intervals come from the Jacobian and suppose that the errors of
     the output are independent: a drift, or counts coarser than the noise, makes them too narrow.
 
-    Parameters
-    ----------
-    time
-        Increasing, s, shape (N,), N >= 8; the steps may differ.
-    input
-        Pressure, Pa, shape (N,), not constant (or other than `initial_input`).
-    output
-        Angle, rad, shape (N,), not constant.
-    initial_input
-        Input before the first sample, Pa; the first sample if None.
-    hold
-        Input between samples: "linear" for a measured one, "zero" for a held command.
+    Args:
+        time: Increasing, s, shape (N,), N >= 8; the steps may differ.
+        input: Pressure, Pa, shape (N,), not constant (or other than `initial_input`).
+        output: Angle, rad, shape (N,), not constant.
+        initial_input: Input before the first sample, Pa; the first sample if None.
+        hold: Input between samples: "linear" for a measured one, "zero" for a held command.
 
-    Raises
-    ------
-    InvalidInputError
-        If the record does not hold what is asked for above, or does not determine the parameters:
-        too short, sampled too slowly, or drowned in noise.
+    Raises:
+        InvalidInputError: If the record does not hold what is asked for above, or does not
+            determine the parameters: too short, sampled too slowly, or drowned in noise.
 
-    Examples
-    --------
     >>> t = np.arange(0, 5, 0.025)
     >>> angle = response(SecondOrder(2.86, 0.7, 2.4e-5), t, 0 * t + 1e5, initial_pressure=0.0)
     >>> found = identify(t, 0 * t + 1e5, angle + 1e-3 * np.sin(40 * t), initial_input=0.0)

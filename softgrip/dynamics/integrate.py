@@ -24,12 +24,9 @@ _WEIGHTS = np.array([1.0, 2.0, 2.0, 1.0]) / 6
 class RungeKutta:
     """The classical fourth-order method, with its work arrays, for one shape of state.
 
-    Parameters
-    ----------
-    derivative
-        The law.
-    shape
-        (states, runs).
+    Args:
+        derivative: The law.
+        shape: (states, runs).
     """
 
     def __init__(self, derivative: Derivative, shape: tuple[int, int]) -> None:
@@ -67,19 +64,13 @@ class RungeKutta:
 def hermite_weights(fraction: Floats) -> Floats:
     """Return what the two ends of a step weigh in the cubic Hermite interpolant.
 
-    Parameters
-    ----------
-    fraction
-        Place inside the step, 0 to 1, shape (N,).
+    Args:
+        fraction: Place inside the step, 0 to 1, shape (N,).
 
-    Returns
-    -------
-    ndarray
-        Shape (N, 4): the weights of start value, step times start slope, end value, step times
-        end slope.
+    Returns:
+        ndarray: Shape (N, 4): the weights of start value, step times start slope, end value, step
+            times end slope.
 
-    Examples
-    --------
     >>> hermite_weights(np.array([0.5])).tolist()
     [[0.5, 0.125, 0.5, -0.125]]
     """
@@ -99,33 +90,20 @@ def rk4(
 ) -> Floats:
     """Integrate a batch of runs and give it at any times, by cubic Hermite interpolation.
 
-    Parameters
-    ----------
-    derivative
-        The law; called at `times[0]` and later only.
-    state
-        State at `times[0]`, shape (states, runs); not changed.
-    times
-        Output times, s, shape (N,), N >= 2, rising. They need not fall on steps.
-    step
-        Largest step, s, > 0; the one taken divides the whole time evenly.
-    keep
-        Rows of the state to give; None for all.
-    out
-        Array for the result, so that a loop need not make one each time.
+    Args:
+        derivative: The law; called at `times[0]` and later only.
+        state: State at `times[0]`, shape (states, runs); not changed.
+        times: Output times, s, shape (N,), N >= 2, rising. They need not fall on steps.
+        step: Largest step, s, > 0; the one taken divides the whole time evenly.
+        keep: Rows of the state to give; None for all.
+        out: Array for the result, so that a loop need not make one each time.
 
-    Returns
-    -------
-    ndarray
-        Shape (N, kept rows, runs), in C order.
+    Returns:
+        ndarray: Shape (N, kept rows, runs), in C order.
 
-    Raises
-    ------
-    InvalidInputError
-        If a shape or a value is not as said.
+    Raises:
+        InvalidInputError: If a shape or a value is not as said.
 
-    Examples
-    --------
     >>> def decay(time, state, slope):
     ...     np.negative(state, out=slope)
     >>> found = rk4(decay, [[1.0, 2.0]], np.linspace(0, 1, 101), 0.05)
@@ -177,12 +155,9 @@ def rk4(
 class StepChoice:
     """A step, and what halving it changed.
 
-    Attributes
-    ----------
-    step
-        s.
-    error
-        Largest measured error of the output at this step, in the unit of the output.
+    Attributes:
+        step: s.
+        error: Largest measured error of the output at this step, in the unit of the output.
     """
 
     step: float
@@ -199,21 +174,14 @@ def step_for(
     a kink, the error depends on where in a step it crosses, and two steps may be off by the same.
     It stays an estimate.
 
-    Parameters
-    ----------
-    error
-        Allowed error of the output, in its unit, > 0.
-    solve
-        Gives the output for a step; a few runs that stand for the batch are enough.
-    first
-        Longest step to try, s.
-    smallest
-        Where to give up, s.
+    Args:
+        error: Allowed error of the output, in its unit, > 0.
+        solve: Gives the output for a step; a few runs that stand for the batch are enough.
+        first: Longest step to try, s.
+        smallest: Where to give up, s.
 
-    Raises
-    ------
-    InvalidInputError
-        If no step down to `smallest` is good enough.
+    Raises:
+        InvalidInputError: If no step down to `smallest` is good enough.
     """
     step, seen = first, np.inf
     coarse, fine = solve(step), solve(step / 2)

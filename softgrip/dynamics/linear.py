@@ -9,13 +9,9 @@ from softgrip.errors import InvalidInputError
 def moment_of_inertia(width: Number, height: Number) -> Number:
     """Return I of a rectangular section, Eq. (5.11), m^4.
 
-    Parameters
-    ----------
-    width, height
-        b and h, m, > 0.
+    Args:
+        width, height: b and h, m, > 0.
 
-    Examples
-    --------
     >>> moment_of_inertia(12.0, 1.0)
     1.0
     """
@@ -25,15 +21,10 @@ def moment_of_inertia(width: Number, height: Number) -> Number:
 def spring_constant(young_modulus: Number, width: Number, height: Number, length: Number) -> Number:
     """Return K, Eq. (5.10), N/rad: the spring of a cantilever with a force at its tip.
 
-    Parameters
-    ----------
-    young_modulus
-        E, Pa, > 0.
-    width, height, length
-        b, h and L_0, m, > 0.
+    Args:
+        young_modulus: E, Pa, > 0.
+        width, height, length: b, h and L_0, m, > 0.
 
-    Examples
-    --------
     >>> spring_constant(6.0, 1.0, 1.0, 1.0)
     1.0
     """
@@ -58,20 +49,13 @@ def second_order(finger: LudwickFinger, force_per_pressure: float) -> SecondOrde
 
     It is the system from pressure to angle of Eq. (4.13).
 
-    Parameters
-    ----------
-    finger
-        One finger with n = 1 and a stiffness above zero.
-    force_per_pressure
-        F over P, N/Pa, > 0.
+    Args:
+        finger: One finger with n = 1 and a stiffness above zero.
+        force_per_pressure: F over P, N/Pa, > 0.
 
-    Raises
-    ------
-    InvalidInputError
-        If the finger is not linear.
+    Raises:
+        InvalidInputError: If the finger is not linear.
 
-    Examples
-    --------
     >>> second_order(linear_finger(0.5, 1.0, 2.0), 1e-5)
     SecondOrder(natural_frequency=2.0, damping_ratio=0.5, gain=5e-06)
     """

@@ -22,20 +22,13 @@ def modified_moment(fractional_power: Number, width: Number, height: Number) -> 
     ``(1/2)**(1 + n)`` in its place and does degrade; integrating Ludwick's stress over the section
     gives that one too. We keep Eq. (5.14) as it is printed.
 
-    Parameters
-    ----------
-    fractional_power
-        n, >= 1.
-    width, height
-        b and h, m, > 0.
+    Args:
+        fractional_power: n, >= 1.
+        width, height: b and h, m, > 0.
 
-    Returns
-    -------
-    float or ndarray
-        m^(3 + n).
+    Returns:
+        float or ndarray: m^(3 + n).
 
-    Examples
-    --------
     >>> modified_moment(1.0, 12.0, 1.0)
     2.0
     """
@@ -51,19 +44,13 @@ def spring_constant(
     At n = 1 it is ``E b h**3 / (3 L**2)``, twice the ``E b h**3 / (6 L**2)`` of Eq. (5.10) and
     (5.11): see `modified_moment`.
 
-    Parameters
-    ----------
-    young_modulus
-        E, Pa, > 0.
-    fractional_power
-        n, >= 1.
-    width, height, length
-        b, h and L_0, m, > 0.
+    Args:
+        young_modulus: E, Pa, > 0.
+        fractional_power: n, >= 1.
+        width, height, length: b, h and L_0, m, > 0.
 
-    Returns
-    -------
-    float or ndarray
-        N (per rad**n).
+    Returns:
+        float or ndarray: N (per rad**n).
     """
     n = fractional_power
     moment = modified_moment(n, width, height)
@@ -73,17 +60,12 @@ def spring_constant(
 def restoring_force(angle: Number, stiffness: Number, fractional_power: Number) -> Number:
     """Return the force ``K_n theta**n``, Eq. (5.12), continued as an odd function below zero.
 
-    Parameters
-    ----------
-    angle
-        rad, any sign.
-    stiffness
-        K_n, N.
-    fractional_power
-        n, >= 1 (below 1 the slope at zero is infinite); in Eq. (5.15) it is n + Dn.
+    Args:
+        angle: rad, any sign.
+        stiffness: K_n, N.
+        fractional_power: n, >= 1 (below 1 the slope at zero is infinite); in Eq. (5.15) it is n +
+            Dn.
 
-    Examples
-    --------
     >>> float(restoring_force(-2.0, 3.0, 2.0))
     -12.0
     """
@@ -94,16 +76,11 @@ def restoring_force(angle: Number, stiffness: Number, fractional_power: Number) 
 class LudwickFinger:
     """Mass, damper and spring of a finger; each a number, or an array of shape (runs,).
 
-    Attributes
-    ----------
-    mass
-        M_eq, kg, > 0.
-    damping
-        C_n, N s/rad, >= 0.
-    stiffness
-        K_n, N, >= 0.
-    fractional_power
-        n + Dn, >= 1.
+    Attributes:
+        mass: M_eq, kg, > 0.
+        damping: C_n, N s/rad, >= 0.
+        stiffness: K_n, N, >= 0.
+        fractional_power: n + Dn, >= 1.
     """
 
     mass: ArrayLike
@@ -135,22 +112,14 @@ class LudwickFinger:
 def acceleration(finger: LudwickFinger, angle: Number, rate: Number, force: Number) -> Number:
     """Return the angular acceleration, Eq. (3.11): what force, damper and spring leave, Eq. (5.15).
 
-    Parameters
-    ----------
-    finger
-        Its parameters; its arrays broadcast with the others.
-    angle, rate
-        rad and rad/s.
-    force
-        F, N.
+    Args:
+        finger: Its parameters; its arrays broadcast with the others.
+        angle, rate: rad and rad/s.
+        force: F, N.
 
-    Returns
-    -------
-    float or ndarray
-        rad/s^2.
+    Returns:
+        float or ndarray: rad/s^2.
 
-    Examples
-    --------
     >>> float(acceleration(LudwickFinger(2.0, 1.0, 3.0, 1.0), 1.0, 1.0, 10.0))
     3.0
     """
@@ -163,12 +132,9 @@ def acceleration(finger: LudwickFinger, angle: Number, rate: Number, force: Numb
 def derivative(finger: LudwickFinger, force: ArrayLike) -> Derivative:
     """Return the equation of motion, Eq. (5.16), for `integrate.rk4`; rows are angle and rate.
 
-    Parameters
-    ----------
-    finger
-        Its parameters.
-    force
-        F, N, a number or shape (runs,), held over the time integrated.
+    Args:
+        finger: Its parameters.
+        force: F, N, a number or shape (runs,), held over the time integrated.
     """
     m, c, k, f = (
         np.asarray(value, dtype=np.float64)
@@ -202,24 +168,16 @@ def step_responses(
 ) -> Iterator[tuple[slice, Floats]]:
     """Give the angles of step responses from rest, a part of the runs at a time.
 
-    Parameters
-    ----------
-    finger, force
-        As in `derivative`, each for one run or for all.
-    times
-        Output times, s, shape (N,), rising from the time of the step.
-    step
-        Integration step, s: see `integrate.step_for`.
-    runs
-        Number of runs, >= 1.
-    limit
-        Largest output held at a time, bytes.
+    Args:
+        finger, force: As in `derivative`, each for one run or for all.
+        times: Output times, s, shape (N,), rising from the time of the step.
+        step: Integration step, s: see `integrate.step_for`.
+        runs: Number of runs, >= 1.
+        limit: Largest output held at a time, bytes.
 
-    Yields
-    ------
-    part, angle : slice, ndarray
-        The runs, and their angles, rad, shape (N, runs of this part). The array is used again for
-        the next part: copy what is to be kept.
+    Yields:
+        part, angle (slice, ndarray): The runs, and their angles, rad, shape (N, runs of this part).
+            The array is used again for the next part: copy what is to be kept.
     """
     t = np.asarray(times, dtype=np.float64)
     pull = np.broadcast_to(np.asarray(force, dtype=np.float64), (runs,))
@@ -241,29 +199,18 @@ def pressure_response(
     Eq. (5.16) with ``F = force_per_pressure * P`` is integrated by the classical Runge-Kutta
     method. Between samples the pressure runs straight; steps end at the samples if these are even.
 
-    Parameters
-    ----------
-    finger
-        One finger, or several as arrays of shape (runs,).
-    time
-        Increasing, s, shape (N,), N >= 2.
-    pressure
-        Gauge, Pa, shape (N,), for all fingers.
-    force_per_pressure
-        F over P, N/Pa.
+    Args:
+        finger: One finger, or several as arrays of shape (runs,).
+        time: Increasing, s, shape (N,), N >= 2.
+        pressure: Gauge, Pa, shape (N,), for all fingers.
+        force_per_pressure: F over P, N/Pa.
 
-    Returns
-    -------
-    ndarray
-        rad, shape (N,), or (runs, N) for several fingers.
+    Returns:
+        ndarray: rad, shape (N,), or (runs, N) for several fingers.
 
-    Raises
-    ------
-    InvalidInputError
-        If time or pressure is not as said.
+    Raises:
+        InvalidInputError: If time or pressure is not as said.
 
-    Examples
-    --------
     >>> t = np.linspace(0, 20, 801)
     >>> finger = LudwickFinger(0.1, 0.3, 0.2, 2.5)
     >>> angle = pressure_response(finger, t, 0 * t + 1e4, force_per_pressure=2e-5)

@@ -17,19 +17,14 @@ from softgrip.errors import InvalidInputError
 class FittedFinger:
     """A finger after Ludwick's law, or with n = 1 after Hooke's, fitted to a record.
 
-    Attributes
-    ----------
-    mass, damping, stiffness, fractional_power
-        As in `LudwickFinger`, with 95 % intervals; those of a given number have no width.
-    force_per_pressure
-        F over P that was supposed, N/Pa. Mass, damping and stiffness are proportional to it: a
-        record of pressure and angle tells their ratios alone.
-    fitted
-        Angle of the fitted finger at the samples, rad, shape (N,).
-    rms
-        Root mean square of the residual, rad.
-    fit_percent
-        ``100 (1 - |residual| / |angle - mean|)``, the fit of MATLAB's ``compare``.
+    Attributes:
+        mass, damping, stiffness, fractional_power: As in `LudwickFinger`, with 95 % intervals;
+            those of a given number have no width.
+        force_per_pressure: F over P that was supposed, N/Pa. Mass, damping and stiffness are
+            proportional to it: a record of pressure and angle tells their ratios alone.
+        fitted: Angle of the fitted finger at the samples, rad, shape (N,).
+        rms: Root mean square of the residual, rad.
+        fit_percent: ``100 (1 - |residual| / |angle - mean|)``, the fit of MATLAB's ``compare``.
     """
 
     mass: Estimate
@@ -73,28 +68,17 @@ def fit_finger(
     The finger rests at angle zero before the record. Intervals come from the Jacobian and suppose
     independent errors of the angle: where the model itself is wrong they are too narrow.
 
-    Parameters
-    ----------
-    time
-        Increasing, s, shape (N,), N >= 8.
-    pressure
-        Gauge, Pa, shape (N,), not zero at the end.
-    angle
-        rad, shape (N,), above zero at the end.
-    force_per_pressure
-        F over P, N/Pa, > 0.
-    fractional_power
-        n, >= 1, to hold (1 for the linear model of Eq. (5.17)); None to fit it.
-    stiffness
-        K_n, N, > 0, to hold; None to fit it.
+    Args:
+        time: Increasing, s, shape (N,), N >= 8.
+        pressure: Gauge, Pa, shape (N,), not zero at the end.
+        angle: rad, shape (N,), above zero at the end.
+        force_per_pressure: F over P, N/Pa, > 0.
+        fractional_power: n, >= 1, to hold (1 for the linear model of Eq. (5.17)); None to fit it.
+        stiffness: K_n, N, > 0, to hold; None to fit it.
 
-    Raises
-    ------
-    InvalidInputError
-        If the record is not as said, or does not determine the parameters.
+    Raises:
+        InvalidInputError: If the record is not as said, or does not determine the parameters.
 
-    Examples
-    --------
     >>> t = np.arange(0, 6, 0.05)
     >>> p = 1e4 * np.minimum(1, 2 * t)
     >>> true = LudwickFinger(0.1, 0.3, 0.2, 2.5)

@@ -18,23 +18,15 @@ Hold = Literal["linear", "zero"]
 class SecondOrder:
     """A finger by damping ratio and natural frequency, Eq. (4.13) with F = C P.
 
-    Attributes
-    ----------
-    natural_frequency
-        omega_n, rad/s, > 0. Design 1 of Chapter 3: 2.86 rad/s.
-    damping_ratio
-        zeta, dimensionless, >= 0. Chapter 3: 0.7 +- 0.1.
-    gain
-        Angle held by a constant pressure, rad/Pa, not 0. Eq. (4.14) carries it as
-        ``C / M_eq = gain * omega_n**2``.
+    Attributes:
+        natural_frequency: omega_n, rad/s, > 0. Design 1 of Chapter 3: 2.86 rad/s.
+        damping_ratio: zeta, dimensionless, >= 0. Chapter 3: 0.7 +- 0.1.
+        gain: Angle held by a constant pressure, rad/Pa, not 0. Eq. (4.14) carries it as ``C / M_eq
+            = gain * omega_n**2``.
 
-    Raises
-    ------
-    InvalidInputError
-        If a value is outside its range.
+    Raises:
+        InvalidInputError: If a value is outside its range.
 
-    Examples
-    --------
     >>> finger = SecondOrder(2.86, 0.7, 2.4e-5)
     >>> np.round(finger.rates, 2).tolist()
     [(2+2.04j), (2-2.04j)]
@@ -63,20 +55,14 @@ class SecondOrder:
     def from_rates(cls, a: complex, b: complex, gain: float = 1.0) -> "SecondOrder":
         """Return the system whose response decays at the rates a and b, Eq. (4.12).
 
-        Parameters
-        ----------
-        a, b
-            Rates, 1/s: two real numbers > 0, or a complex pair with a real part >= 0.
-        gain
-            Static gain, rad/Pa.
+        Args:
+            a, b: Rates, 1/s: two real numbers > 0, or a complex pair with a real part >= 0.
+            gain: Static gain, rad/Pa.
 
-        Raises
-        ------
-        InvalidInputError
-            If a and b are no such pair, so that Eq. (4.12) would not be real and stable.
+        Raises:
+            InvalidInputError: If a and b are no such pair, so that Eq. (4.12) would not be real and
+                stable.
 
-        Examples
-        --------
         >>> SecondOrder.from_rates(1.99 + 2.04j, 1.99 - 2.04j).natural_frequency.__round__(2)
         2.85
         """
@@ -99,22 +85,14 @@ def step_response(
     One form serves a complex pair, two equal rates and two real rates. All arguments broadcast:
     with time of shape (N,) and parameters of shape (runs, 1) the result is (runs, N).
 
-    Parameters
-    ----------
-    time
-        Time since the step, s, >= 0.
-    natural_frequency
-        rad/s, > 0.
-    damping_ratio
-        Dimensionless, >= 0.
+    Args:
+        time: Time since the step, s, >= 0.
+        natural_frequency: rad/s, > 0.
+        damping_ratio: Dimensionless, >= 0.
 
-    Raises
-    ------
-    InvalidInputError
-        If a value is outside its range.
+    Raises:
+        InvalidInputError: If a value is outside its range.
 
-    Examples
-    --------
     >>> step_response([0.0, 1.0], 1.0, 1.0).round(6).tolist()
     [0.0, 0.264241]
     """
@@ -169,14 +147,10 @@ def full_state_space(system: SecondOrder, pump_gain: float) -> control.StateSpac
     the motor speed in its numerator although that is the input, so it holds either for the angle
     itself or for an input that is a share of one set speed; here the speed is the input.
 
-    Parameters
-    ----------
-    system
-        The finger.
-    pump_gain
-        Pressure rate per motor speed, ``A l / (2 pi C_i)`` of Eq. (4.5), Pa/s per rad/s, > 0, for
-        one constant capacity C_i; else InvalidInputError is raised.
-
+    Args:
+        system: The finger.
+        pump_gain: Pressure rate per motor speed, ``A l / (2 pi C_i)`` of Eq. (4.5), Pa/s per rad/s,
+            > 0, for one constant capacity C_i; else InvalidInputError is raised.
     """
     check_positive(pump_gain=pump_gain)
     w = system.natural_frequency
@@ -201,31 +175,20 @@ def response(
 ) -> Floats:
     """Return the angle that a sampled pressure makes, from rest, exactly between the samples.
 
-    Parameters
-    ----------
-    system
-        The finger.
-    time
-        Increasing, s, shape (N,), N >= 2; the steps may differ.
-    pressure
-        Pa, shape (N,) or (runs, N).
-    initial_pressure
-        Pressure at which the finger rested before the first sample, Pa; the first sample if None.
-    hold
-        Pressure between samples: "linear" for a measured one, "zero" for a held command.
+    Args:
+        system: The finger.
+        time: Increasing, s, shape (N,), N >= 2; the steps may differ.
+        pressure: Pa, shape (N,) or (runs, N).
+        initial_pressure: Pressure at which the finger rested before the first sample, Pa; the first
+            sample if None.
+        hold: Pressure between samples: "linear" for a measured one, "zero" for a held command.
 
-    Returns
-    -------
-    ndarray
-        Angle, rad, of the shape of `pressure`.
+    Returns:
+        ndarray: Angle, rad, of the shape of `pressure`.
 
-    Raises
-    ------
-    InvalidInputError
-        If the time does not increase, the shapes differ, or `hold` is unknown.
+    Raises:
+        InvalidInputError: If the time does not increase, the shapes differ, or `hold` is unknown.
 
-    Examples
-    --------
     >>> response(SecondOrder(1.0, 1.0), [0, 1], [1, 1], initial_pressure=0).round(6).tolist()
     [0.0, 0.264241]
     """

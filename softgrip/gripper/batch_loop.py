@@ -36,11 +36,10 @@ def loop_states(
 ) -> Floats:
     """Run the loop from rest; parameters as of `monte_carlo.in_parts`.
 
-    Returns
-    -------
-    ndarray
-        Angle, rate, pump and command, the state of `sampled_plant.held_motion`, as each period
-        starts and at the end, which has no command; shape (count, fingers, periods + 1, 4).
+    Returns:
+        ndarray: Angle, rate, pump and command, the state of `sampled_plant.held_motion`, as each
+            period starts and at the end, which has no command; shape (count, fingers, periods + 1,
+            4).
     """
     count, fingers = grippers.count, grippers.fingers
     motion = held_motion(grippers.damping, grippers.stiffness, grippers.gain, trial.period, 1)
@@ -85,12 +84,9 @@ def metrics(grippers: GripperBatch, states: Floats, trial: Trial) -> tuple[Float
     Where an extreme or the last point outside a band cannot lie need not be looked at; what is
     left are a few periods of each finger, point by point.
 
-    Parameters
-    ----------
-    grippers, trial
-        What was simulated.
-    states
-        As of `loop_states`.
+    Args:
+        grippers, trial: What was simulated.
+        states: As of `loop_states`.
     """
     edges = states[..., 0] / np.array(trial.target)[:, None]
     slack = _slack(grippers, states[:, :, :-1], trial)

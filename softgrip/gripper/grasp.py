@@ -25,16 +25,11 @@ SMALL_ANGLE = 1e-4
 class ElasticDisc:
     """What is grasped.
 
-    Attributes
-    ----------
-    stiffness
-        Force by dent, N/m, > 0.
-    radius
-        m, > 0.
-    mass
-        kg, > 0.
-    friction
-        Of its support, as a share of its weight, > 0.
+    Attributes:
+        stiffness: Force by dent, N/m, > 0.
+        radius: m, > 0.
+        mass: kg, > 0.
+        friction: Of its support, as a share of its weight, > 0.
     """
 
     stiffness: float
@@ -52,14 +47,10 @@ class ElasticDisc:
 class Touch:
     """A finger against the disc; arrays of the shape of the angle.
 
-    Attributes
-    ----------
-    dent
-        m, >= 0.
-    torque
-        On the finger, N m, <= 0: the disc pushes it open.
-    sideways
-        Force on the disc, N, away from the finger.
+    Attributes:
+        dent: m, >= 0.
+        torque: On the finger, N m, <= 0: the disc pushes it open.
+        sideways: Force on the disc, N, away from the finger.
     """
 
     dent: Floats
@@ -75,22 +66,14 @@ def touch(
     Torque and force are slopes of the energy ``stiffness dent**2 / 2`` by the angle of the finger
     and by the place of the disc, so that no energy is made or lost.
 
-    Parameters
-    ----------
-    angle
-        theta, by which the tip has turned, rad.
-    ahead
-        Distance from the finger's root to the disc's centre along the palm, m, positive where the
-        finger bends to; broadcasts with the angle.
-    depth
-        Of the centre below the palm, m.
-    length
-        L, m, > 0.
-    disc
-        What is touched.
+    Args:
+        angle: theta, by which the tip has turned, rad.
+        ahead: Distance from the finger's root to the disc's centre along the palm, m, positive
+            where the finger bends to; broadcasts with the angle.
+        depth: Of the centre below the palm, m.
+        length: L, m, > 0.
+        disc: What is touched.
 
-    Examples
-    --------
     >>> far, near = (touch(t, 0.05, 0.07, 0.1, ElasticDisc(100.0)) for t in (0.1, 1.0))
     >>> bool(far.torque == 0), bool(near.torque < 0), bool(near.sideways > 0)
     (True, True, True)
@@ -118,23 +101,15 @@ class DiscBetweenFingers:
 
     The place is counted from the middle, towards the second finger.
 
-    Attributes
-    ----------
-    disc
-        What lies there.
-    gap
-        Between the roots of the fingers, m.
-    depth
-        Of the centre below the palm, m.
-    length
-        Of the fingers, m (Section 6.3: 100 mm).
-    slow
-        Speed below which the friction of the support is smoothed, m/s.
+    Attributes:
+        disc: What lies there.
+        gap: Between the roots of the fingers, m.
+        depth: Of the centre below the palm, m.
+        length: Of the fingers, m (Section 6.3: 100 mm).
+        slow: Speed below which the friction of the support is smoothed, m/s.
 
-    Raises
-    ------
-    InvalidInputError
-        If a number is not above zero.
+    Raises:
+        InvalidInputError: If a number is not above zero.
     """
 
     disc: ElasticDisc

@@ -19,21 +19,16 @@ Bools = NDArray[np.bool_]
 class GripperBatch:
     """Grippers of equally many fingers; each array has the shape (count, fingers).
 
-    Attributes
-    ----------
-    damping, stiffness, gain
-        As of `FingerDynamics`, finite and > 0: 1/s, 1/s^2, rad/s^3 per unit of the input.
-    first
-        Number of the first gripper in its study: what chance gives to a gripper hangs on its
-        number alone, not on the batch that it is in.
+    Attributes:
+        damping, stiffness, gain: As of `FingerDynamics`, finite and > 0: 1/s, 1/s^2, rad/s^3 per
+            unit of the input.
+        first: Number of the first gripper in its study: what chance gives to a gripper hangs on its
+            number alone, not on the batch that it is in.
 
-    Raises
-    ------
-    InvalidInputError
-        If the arrays are not of one shape with two axes, or a number is not above zero.
+    Raises:
+        InvalidInputError: If the arrays are not of one shape with two axes, or a number is not
+            above zero.
 
-    Examples
-    --------
     >>> from softgrip.gripper.plant import PRINTED
     >>> draw_grippers(PRINTED, 3, seed=1).take(slice(1, 3)).first
     1
@@ -90,14 +85,10 @@ def uniforms(seed: int, stream: int, first: int, shape: tuple[int, ...]) -> Floa
     generator is moved on past those of the items before. A generator for each would cost more than
     the simulation.
 
-    Parameters
-    ----------
-    seed, stream
-        Of the study, and of what the numbers are for.
-    first
-        Number of the first item, >= 0.
-    shape
-        Items, then numbers of an item.
+    Args:
+        seed, stream: Of the study, and of what the numbers are for.
+        first: Number of the first item, >= 0.
+        shape: Items, then numbers of an item.
     """
     generator = np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(stream,)))
     generator.advance(first * int(np.prod(shape[1:])))
@@ -119,24 +110,16 @@ def draw_grippers(
     Section 6.4 gives bounds on C_n and K_n and no distribution: the deviations are uniform between
     the bounds, independent of each other. The gain, which holds neither, stays nominal.
 
-    Parameters
-    ----------
-    nominal
-        The gripper about which they lie.
-    count
-        How many, >= 1.
-    seed
-        Of the study.
-    first
-        Number of the first, >= 0: grippers 5 to 9 of a seed are the same, drawn alone or with
-        others.
-    damping, stiffness
-        Largest deviations as shares of nominal, 0 <= share < 1.
+    Args:
+        nominal: The gripper about which they lie.
+        count: How many, >= 1.
+        seed: Of the study.
+        first: Number of the first, >= 0: grippers 5 to 9 of a seed are the same, drawn alone or
+            with others.
+        damping, stiffness: Largest deviations as shares of nominal, 0 <= share < 1.
 
-    Raises
-    ------
-    InvalidInputError
-        If an argument is outside its range.
+    Raises:
+        InvalidInputError: If an argument is outside its range.
     """
     if count < 1 or first < 0:
         raise InvalidInputError("count, first", expected=">= 1 and >= 0", got=(count, first))
@@ -160,19 +143,13 @@ def can_rest(grippers: GripperBatch, target: ArrayLike, band: float) -> Bools:
     At rest the pump's one number gives each finger ``gain / stiffness`` times itself. Where no
     number serves all, no controller settles the gripper, whatever it knows.
 
-    Parameters
-    ----------
-    grippers
-        The grippers.
-    target
-        Angle of each finger, rad, > 0, shape (fingers,).
-    band
-        Half width as a share of each target, 0 to 1.
+    Args:
+        grippers: The grippers.
+        target: Angle of each finger, rad, > 0, shape (fingers,).
+        band: Half width as a share of each target, 0 to 1.
 
-    Returns
-    -------
-    ndarray
-        Shape (count,).
+    Returns:
+        ndarray: Shape (count,).
     """
     pump = np.asarray(target) * grippers.stiffness / grippers.gain
     return np.asarray((1 - band) * pump.max(axis=1) <= (1 + band) * pump.min(axis=1))
@@ -183,36 +160,22 @@ def can_rest(grippers: GripperBatch, target: ArrayLike, band: float) -> Bools:
 class Trial:
     """A step from rest at angle 0 in the sampled loop.
 
-    Attributes
-    ----------
-    target
-        Angle of each finger, rad, not 0: its share of the desired output, Eq. (6.25).
-    duration
-        s, a whole number of periods.
-    period
-        Time between commands, s; Section 6.4 has 100 ms.
-    plant_step
-        Time between the points at which the fingers are looked at, s; divides the period.
-    limit
-        Largest absolute command, > 0.
-    noise
-        Standard deviation of the measured angles, rad, >= 0.
-    delay_samples
-        Periods by which the command comes late, >= 0.
-    feedforward
-        Commands that are added to the controller's, one a period; none if empty.
-    bands
-        Half widths of the settling bands as shares of the target, each between 0 and 1.
-    seed
-        Of the noise.
+    Attributes:
+        target: Angle of each finger, rad, not 0: its share of the desired output, Eq. (6.25).
+        duration: s, a whole number of periods.
+        period: Time between commands, s; Section 6.4 has 100 ms.
+        plant_step: Time between the points at which the fingers are looked at, s; divides the
+            period.
+        limit: Largest absolute command, > 0.
+        noise: Standard deviation of the measured angles, rad, >= 0.
+        delay_samples: Periods by which the command comes late, >= 0.
+        feedforward: Commands that are added to the controller's, one a period; none if empty.
+        bands: Half widths of the settling bands as shares of the target, each between 0 and 1.
+        seed: Of the noise.
 
-    Raises
-    ------
-    InvalidInputError
-        If a number is outside its range, or the times do not divide.
+    Raises:
+        InvalidInputError: If a number is outside its range, or the times do not divide.
 
-    Examples
-    --------
     >>> Trial((0.75, 0.85)).periods, Trial((0.75, 0.85)).points
     (30, 3000)
     """

@@ -18,16 +18,11 @@ from softgrip.gripper.plant import Gripper, state_space
 class GripperRun:
     """A run of the loop.
 
-    Attributes
-    ----------
-    time
-        s, shape (N,).
-    angles
-        The fingers' true angles, rad, shape (fingers, N).
-    sample_time
-        s, shape (samples,).
-    commands
-        What the plant is given from each sample on, shape (samples,).
+    Attributes:
+        time: s, shape (N,).
+        angles: The fingers' true angles, rad, shape (fingers, N).
+        sample_time: s, shape (samples,).
+        commands: What the plant is given from each sample on, shape (samples,).
     """
 
     time: Floats
@@ -50,32 +45,21 @@ def run_gripper(
 ) -> GripperRun:
     """Run a controller on real fingers, Eq. (6.21), from rest; it is reset first.
 
-    Parameters
-    ----------
-    gripper
-        The real fingers, which need not be those of the controller's model.
-    controller
-        With its target and period.
-    duration
-        s, at least a period.
-    noise
-        Standard deviation of each measured angle, rad, >= 0, independent from sample to sample.
-    push
-        What pushes the fingers at a time [s]: the angle by which each would be moved in the end if
-        the push stayed and the pump stood still, rad, shape (fingers,).
-    limit
-        The command is cut to +-limit on its way to the plant.
-    delay_samples
-        Periods by which the command comes late, >= 0.
-    points
-        Steps within a period at which the angles are recorded, >= 1.
-    seed
-        Of the noise.
+    Args:
+        gripper: The real fingers, which need not be those of the controller's model.
+        controller: With its target and period.
+        duration: s, at least a period.
+        noise: Standard deviation of each measured angle, rad, >= 0, independent from sample to
+            sample.
+        push: What pushes the fingers at a time [s]: the angle by which each would be moved in the
+            end if the push stayed and the pump stood still, rad, shape (fingers,).
+        limit: The command is cut to +-limit on its way to the plant.
+        delay_samples: Periods by which the command comes late, >= 0.
+        points: Steps within a period at which the angles are recorded, >= 1.
+        seed: Of the noise.
 
-    Raises
-    ------
-    InvalidInputError
-        If a number is outside its range.
+    Raises:
+        InvalidInputError: If a number is outside its range.
     """
     period = controller.matrices.period
     check_positive(duration=duration, limit=1.0 if np.isinf(limit) else limit, points=points)
@@ -123,12 +107,9 @@ def noise_gain(gripper: Gripper, matrices: ControllerMatrices) -> Floats:
     The root of the sum of the squared impulse responses, at the samples, when the fingers are those
     of the model: the feedback then sees the noise alone.
 
-    Parameters
-    ----------
-    gripper
-        The fingers.
-    matrices
-        The controller, with the same fingers in its model.
+    Args:
+        gripper: The fingers.
+        matrices: The controller, with the same fingers in its model.
     """
     system = state_space(gripper)
     A, B, C, *_ = cont2discrete((system.A, system.B, system.C, system.D), matrices.period, "zoh")

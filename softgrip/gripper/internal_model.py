@@ -36,20 +36,13 @@ class ControllerMatrices:
 
     `sent` is the command as the plant gets it: u, or u within a limit that the controller knows.
 
-    Attributes
-    ----------
-    A
-        Shape (n, n): filters first, then the model's plant, then the commands on their way.
-    B_measured, B_target
-        Shape (n, fingers).
-    B_sent
-        Shape (n,).
-    C
-        Shape (n,).
-    D_measured, D_target
-        Shape (fingers,).
-    period
-        s.
+    Attributes:
+        A: Shape (n, n): filters first, then the model's plant, then the commands on their way.
+        B_measured, B_target: Shape (n, fingers).
+        B_sent: Shape (n,).
+        C: Shape (n,).
+        D_measured, D_target: Shape (fingers,).
+        period: s.
     """
 
     A: Floats
@@ -138,39 +131,24 @@ def _sampled(
 class InternalModelController:
     """The sampled controller of Figure 6.3, for one run or a batch of runs.
 
-    Parameters
-    ----------
-    gripper
-        The model inside: the nominal plant.
-    target
-        Angles to go to, rad, shape (fingers,), from the first update on; in the image of P at rest,
-        or what can be reached of it is reached.
-    inverse
-        P-dagger.
-    filter
-        H(s), continuous, falling off as ``s^-3`` or faster.
-    period
-        Time between updates, s, > 0.
-    feedback_filter
-        Another H(s) for ``u_fb``; the same if None.
-    limit
-        The command is cut to +-limit, and the model inside is given what is left. To leave the
-        model ignorant of a limit, cut the command outside.
-    delay_samples
-        Updates by which the model inside takes the command to come late, >= 0.
-    method
-        How ``H P-dagger`` is made discrete. The plant's model is exact for a held command.
-    digits
-        Decimals to which the command is given, so that the last bits of linear algebra, which
-        differ from machine to machine, do not make runs differ; None for all.
+    Args:
+        gripper: The model inside: the nominal plant.
+        target: Angles to go to, rad, shape (fingers,), from the first update on; in the image of P
+            at rest, or what can be reached of it is reached.
+        inverse: P-dagger.
+        filter: H(s), continuous, falling off as ``s^-3`` or faster.
+        period: Time between updates, s, > 0.
+        feedback_filter: Another H(s) for ``u_fb``; the same if None.
+        limit: The command is cut to +-limit, and the model inside is given what is left. To leave
+            the model ignorant of a limit, cut the command outside.
+        delay_samples: Updates by which the model inside takes the command to come late, >= 0.
+        method: How ``H P-dagger`` is made discrete. The plant's model is exact for a held command.
+        digits: Decimals to which the command is given, so that the last bits of linear algebra,
+            which differ from machine to machine, do not make runs differ; None for all.
 
-    Raises
-    ------
-    InvalidInputError
-        If shapes do not fit or a number is outside its range.
+    Raises:
+        InvalidInputError: If shapes do not fit or a number is outside its range.
 
-    Examples
-    --------
     >>> from softgrip.gripper.inversion import mean_inverse
     >>> from softgrip.gripper.plant import PRINTED
     >>> from softgrip.gripper.shaping_filter import low_pass
@@ -218,15 +196,11 @@ class InternalModelController:
     def update(self, measured: ArrayLike) -> Floats:
         """Return the command for the next period.
 
-        Parameters
-        ----------
-        measured
-            Angles, rad, shape (fingers,) or (fingers, runs).
+        Args:
+            measured: Angles, rad, shape (fingers,) or (fingers, runs).
 
-        Returns
-        -------
-        ndarray
-            Command within the limit, shape () or (runs,).
+        Returns:
+            ndarray: Command within the limit, shape () or (runs,).
         """
         y = np.asarray(measured, dtype=np.float64)
         if y.ndim not in (1, 2) or len(y) != len(self.target):

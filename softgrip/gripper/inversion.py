@@ -25,12 +25,10 @@ Complex = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
 class LeftInverse:
     """A row that undoes P(s): a polynomial part and, where there is one, a strictly proper part.
 
-    Attributes
-    ----------
-    polynomials
-        Coefficients of the powers 3, 2, 1, 0 of s, one row a finger, shape (fingers, 4).
-    remainder
-        State space with one input a finger and one output, D = 0; None if there is none.
+    Attributes:
+        polynomials: Coefficients of the powers 3, 2, 1, 0 of s, one row a finger, shape (fingers,
+            4).
+        remainder: State space with one input a finger and one output, D = 0; None if there is none.
     """
 
     polynomials: Floats
@@ -64,8 +62,6 @@ def mean_inverse(gripper: Gripper) -> LeftInverse:
     Section 6.4 prints it. It has no finite pole, so nothing in it can be unstable. It is a left
     inverse, but Theorem 2 names another one: see `moore_penrose_inverse`.
 
-    Examples
-    --------
     >>> from softgrip.gripper.plant import PRINTED
     >>> row = mean_inverse(PRINTED).polynomials[0]
     >>> (row / row[0]).tolist(), round(1 / float(row[0]), 2)  # printed: 15.66
@@ -88,14 +84,11 @@ def moore_penrose_inverse(gripper: Gripper, *, adjoint: bool = False) -> LeftInv
     With unequal fingers its weights are ``P_i^2 / sum P_j^2``: rational, with 4 finite poles per
     finger beyond the first, which lie near those of the fingers.
 
-    Parameters
-    ----------
-    gripper
-        Two or more fingers.
-    adjoint
-        True for ``(P~ P)^-1 P~`` with ``P~(s) = P(-s)^T``, which is the orthogonal one in L2: at
-        ``s = j omega`` its error is the least that any input can leave. Its poles lie mirrored
-        about the imaginary axis, so no causal filter of it is stable.
+    Args:
+        gripper: Two or more fingers.
+        adjoint: True for ``(P~ P)^-1 P~`` with ``P~(s) = P(-s)^T``, which is the orthogonal one in
+            L2: at ``s = j omega`` its error is the least that any input can leave. Its poles lie
+            mirrored about the imaginary axis, so no causal filter of it is stable.
     """
     # The pump's integrator cancels but for one s: what is left are the fingers' q = s^2 + a s + b.
     quadratics = [read_only([1.0, f.damping, f.stiffness]) for f in gripper.fingers]
@@ -121,17 +114,13 @@ def filtered_inverse(inverse: LeftInverse, low_pass: control.StateSpace) -> cont
     k = 3, ``+ C A^2 B``: exact, and of the filter's order, where a product of transfer functions
     would keep what cancels.
 
-    Parameters
-    ----------
-    inverse
-        The left inverse.
-    low_pass
-        H(s): one input, one output, continuous, falling off as ``s^-3`` or faster.
+    Args:
+        inverse: The left inverse.
+        low_pass: H(s): one input, one output, continuous, falling off as ``s^-3`` or faster.
 
-    Raises
-    ------
-    InvalidInputError
-        If the filter has another form or falls off too slowly: ``H P-dagger`` is then improper.
+    Raises:
+        InvalidInputError: If the filter has another form or falls off too slowly: ``H P-dagger`` is
+            then improper.
     """
     A, B, C = low_pass.A, low_pass.B, low_pass.C
     if low_pass.ninputs != 1 or low_pass.noutputs != 1 or low_pass.dt:

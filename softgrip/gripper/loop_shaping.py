@@ -28,15 +28,11 @@ SUBOPTIMAL = 1.1
 class ShapedLoop:
     """A loop shape made robust.
 
-    Attributes
-    ----------
-    shape
-        The loop that was asked for, ``P W``.
-    loop
-        The one that came out, ``P W K``, with negative feedback.
-    gamma
-        Least gamma: ``1 / gamma`` is the largest size of the normalised coprime factors' error
-        that some controller withstands. Below 4 the shape is held to be a sound one.
+    Attributes:
+        shape: The loop that was asked for, ``P W``.
+        loop: The one that came out, ``P W K``, with negative feedback.
+        gamma: Least gamma: ``1 / gamma`` is the largest size of the normalised coprime factors'
+            error that some controller withstands. Below 4 the shape is held to be a sound one.
     """
 
     shape: control.StateSpace
@@ -52,8 +48,6 @@ class ShapedLoop:
 def least_gamma(system: control.StateSpace) -> float:
     """Return ``sqrt(1 + rho(X Z))`` with X, Z of the two Riccati equations; D = 0.
 
-    Examples
-    --------
     >>> round(least_gamma(control.ss(0, 1, 3, 0)) ** 2, 6)  # any k / s
     2.0
     """
@@ -64,17 +58,12 @@ def least_gamma(system: control.StateSpace) -> float:
 def glover_mcfarlane(shape: control.StateSpace, *, factor: float = SUBOPTIMAL) -> ShapedLoop:
     """Return the loop of a shape and the controller that makes it most robust.
 
-    Parameters
-    ----------
-    shape
-        Plant times weight: minimal, continuous, D = 0.
-    factor
-        On the least gamma, > 1.
+    Args:
+        shape: Plant times weight: minimal, continuous, D = 0.
+        factor: On the least gamma, > 1.
 
-    Raises
-    ------
-    InvalidInputError
-        If the factor is not above 1, or the shape has a direct term.
+    Raises:
+        InvalidInputError: If the factor is not above 1, or the shape has a direct term.
     """
     if not factor > 1 or np.any(shape.D) or shape.dt:
         raise InvalidInputError(
@@ -99,14 +88,10 @@ def target_loop(crossover: float, roll_off: float, order: int = 2) -> control.St
     two poles must be added, and the text does not say where. Which plant it is then does not
     matter, since the weight cancels it.
 
-    Parameters
-    ----------
-    crossover
-        rad/s, > 0: 4.8 or 2 in Section 6.4.
-    roll_off
-        rad/s, > 0.
-    order
-        Poles added, >= 1.
+    Args:
+        crossover: rad/s, > 0: 4.8 or 2 in Section 6.4.
+        roll_off: rad/s, > 0.
+        order: Poles added, >= 1.
     """
     check_positive(crossover=crossover, roll_off=roll_off, order=order)
     A = np.diag([-roll_off] * order + [0.0]) + roll_off * np.eye(order + 1, k=1)
@@ -134,18 +119,12 @@ def fit_roll_off(
     It is a fit of the one number that a target loop leaves open, by the root mean square of the
     logarithm of the ratio of the gains.
 
-    Parameters
-    ----------
-    crossover
-        Of the target loop, rad/s, > 0.
-    filter
-        H(s) to come near to.
-    frequency
-        rad/s, > 0, shape (N,), at which they are compared.
-    factor
-        As for `glover_mcfarlane`.
-    order
-        As for `target_loop`.
+    Args:
+        crossover: Of the target loop, rad/s, > 0.
+        filter: H(s) to come near to.
+        frequency: rad/s, > 0, shape (N,), at which they are compared.
+        factor: As for `glover_mcfarlane`.
+        order: As for `target_loop`.
     """
 
     def shaped(log_ratio: float) -> ShapedLoop:

@@ -31,22 +31,15 @@ BLOCK = 4e6
 class Outcome:
     """What came of some grippers in one trial, in their order.
 
-    Attributes
-    ----------
-    settling
-        As `step_metrics.settling_time` about each finger's own target, for each of the trial's
-        bands: s, shape (bands, count, fingers).
-    overshoot
-        As `step_metrics.overshoot`, share of the target, shape (count, fingers).
-    synchronization
-        Largest difference between two fingers of a gripper at any time, each as the share of its
-        own target that it has covered; shape (count,).
-    peak_command
-        Largest absolute command after the limit, shape (count,).
-    angles
-        rad, shape (count, fingers, points + 1) from time 0; None if not kept.
-    commands
-        One a period, after limit and delay, shape (count, periods); None if not kept.
+    Attributes:
+        settling: As `step_metrics.settling_time` about each finger's own target, for each of the
+            trial's bands: s, shape (bands, count, fingers).
+        overshoot: As `step_metrics.overshoot`, share of the target, shape (count, fingers).
+        synchronization: Largest difference between two fingers of a gripper at any time, each as
+            the share of its own target that it has covered; shape (count,).
+        peak_command: Largest absolute command after the limit, shape (count,).
+        angles: rad, shape (count, fingers, points + 1) from time 0; None if not kept.
+        commands: One a period, after limit and delay, shape (count, periods); None if not kept.
     """
 
     settling: Floats
@@ -67,17 +60,13 @@ def simulate(
 ) -> Outcome:
     """Run a trial on all grippers and return what came of each.
 
-    Parameters
-    ----------
-    grippers, controller, trial, memory
-        As of `in_parts`.
-    keep
-        Whether the trajectories are part of what is returned. They must then fit into `memory`.
+    Args:
+        grippers, controller, trial, memory: As of `in_parts`.
+        keep: Whether the trajectories are part of what is returned. They must then fit into
+            `memory`.
 
-    Raises
-    ------
-    InvalidInputError
-        As `in_parts`, and if trajectories are to be kept that do not fit.
+    Raises:
+        InvalidInputError: As `in_parts`, and if trajectories are to be kept that do not fit.
     """
     size = 8.0 * grippers.count * grippers.fingers * (trial.points + 1)
     if keep == "trajectories" and size > memory:
@@ -108,29 +97,20 @@ def in_parts(
 ) -> Iterator[tuple[slice, Outcome]]:
     """Run a trial on any number of grippers, in memory that does not grow with them.
 
-    Parameters
-    ----------
-    grippers
-        The grippers, at rest at angle 0.
-    controller
-        Of the trial's period. What it knows as sent is its command within the trial's limit; with
-        a `B_sent` of zero it knows nothing. None for the trial's feedforward alone.
-    trial
-        What they are put through.
-    keep
-        Whether each part brings its trajectories.
-    memory
-        About the largest memory that a part takes, bytes.
+    Args:
+        grippers: The grippers, at rest at angle 0.
+        controller: Of the trial's period. What it knows as sent is its command within the trial's
+            limit; with a `B_sent` of zero it knows nothing. None for the trial's feedforward alone.
+        trial: What they are put through.
+        keep: Whether each part brings its trajectories.
+        memory: About the largest memory that a part takes, bytes.
 
-    Yields
-    ------
-    part, outcome
-        The grippers of the part, and what came of them: the same in any part.
+    Yields:
+        part, outcome: The grippers of the part, and what came of them: the same in any part.
 
-    Raises
-    ------
-    InvalidInputError
-        If the controller has another form, or the target another number of fingers.
+    Raises:
+        InvalidInputError: If the controller has another form, or the target another number of
+            fingers.
     """
     fingers = grippers.fingers
     if len(trial.target) != fingers:
@@ -191,24 +171,15 @@ def study(
     ``backend="dask"`` for a cluster. Each part draws its own grippers, so that nothing but numbers
     of grippers goes out and nothing but metrics comes back, whatever the parts.
 
-    Parameters
-    ----------
-    nominal, count, seed
-        As of `draw_grippers`.
-    controller, trial
-        As of `in_parts`.
-    parts
-        1 to `count`.
-    jobs
-        As joblib's `n_jobs`: how many parts at a time; None leaves it to its configuration.
+    Args:
+        nominal, count, seed: As of `draw_grippers`.
+        controller, trial: As of `in_parts`.
+        parts: 1 to `count`.
+        jobs: As joblib's `n_jobs`: how many parts at a time; None leaves it to its configuration.
 
-    Raises
-    ------
-    InvalidInputError
-        If an argument is outside its range.
+    Raises:
+        InvalidInputError: If an argument is outside its range.
 
-    Examples
-    --------
     >>> from softgrip.gripper.plant import PRINTED
     >>> trial = Trial((0.75, 0.85), duration=1.0, feedforward=(0.3,) * 10)
     >>> study(PRINTED, 6, None, trial, parts=3).overshoot.shape

@@ -25,20 +25,15 @@ from softgrip.gripper.reach import project
 class OptimalFeedforward:
     """The command that keeps the fingers together best.
 
-    Attributes
-    ----------
-    time
-        Start of each period, s, shape (N,).
-    command
-        Unit of the input, shape (N,): of those that do so, the one whose changes add up to least.
-    angles
-        rad at the end of each point, shape (fingers, points).
-    settling
-        Time by which all fingers stay in the band, as asked for, s.
-    worst_sync
-        Largest difference between two fingers at any point, as shares of their targets.
-    gap
-        What the dual program's optimum falls short of it: 0 but for rounding proves the optimum.
+    Attributes:
+        time: Start of each period, s, shape (N,).
+        command: Unit of the input, shape (N,): of those that do so, the one whose changes add up to
+            least.
+        angles: rad at the end of each point, shape (fingers, points).
+        settling: Time by which all fingers stay in the band, as asked for, s.
+        worst_sync: Largest difference between two fingers at any point, as shares of their targets.
+        gap: What the dual program's optimum falls short of it: 0 but for rounding proves the
+            optimum.
     """
 
     time: Floats
@@ -62,35 +57,25 @@ def optimal_feedforward(
 ) -> OptimalFeedforward:
     """Return the command that keeps the fingers together best, and settles them in time.
 
-    Parameters
-    ----------
-    gripper
-        The fingers; the command is open loop, so what they are is taken as known.
-    target
-        Angle of each finger, rad, a multiple of the velocity gains: one pump cannot hold others.
-    settling
-        From which on every finger stays within the band until the end, s, a multiple of the period.
-    limit
-        Largest absolute command, > 0.
-    band
-        Half width as a share of each target, between 0 and 1.
-    duration
-        s, longer than `settling`; then the pump is at rest, and where the fingers end is in the
-        band too.
-    period
-        Time between commands, s, > 0.
-    points
-        Points a period at which the fingers are looked at, >= 1. Between the 10 of a period of
-        100 ms they are up to 0.05 % farther apart, and leave the band by 0.0002 of the target.
+    Args:
+        gripper: The fingers; the command is open loop, so what they are is taken as known.
+        target: Angle of each finger, rad, a multiple of the velocity gains: one pump cannot hold
+            others.
+        settling: From which on every finger stays within the band until the end, s, a multiple of
+            the period.
+        limit: Largest absolute command, > 0.
+        band: Half width as a share of each target, between 0 and 1.
+        duration: s, longer than `settling`; then the pump is at rest, and where the fingers end is
+            in the band too.
+        period: Time between commands, s, > 0.
+        points: Points a period at which the fingers are looked at, >= 1. Between the 10 of a period
+            of 100 ms they are up to 0.05 % farther apart, and leave the band by 0.0002 of the
+            target.
 
-    Raises
-    ------
-    InvalidInputError
-        If an argument is outside its range, the target cannot be held, or no command within the
-        limit settles that early.
+    Raises:
+        InvalidInputError: If an argument is outside its range, the target cannot be held, or no
+            command within the limit settles that early.
 
-    Examples
-    --------
     >>> from softgrip.gripper.plant import PRINTED
     >>> target = tuple(0.35 * PRINTED.velocity_gains)
     >>> found = optimal_feedforward(PRINTED, target, settling=2.0, limit=1.0)
@@ -125,18 +110,13 @@ def trade_off(
 ) -> Iterator[OptimalFeedforward]:
     """Yield the best command for each settling time, from the least that is possible on.
 
-    Parameters
-    ----------
-    latest
-        Last settling time, s, below `duration`.
-    gripper, target, limit, band, duration, period, points
-        As for `optimal_feedforward`.
+    Args:
+        latest: Last settling time, s, below `duration`.
+        gripper, target, limit, band, duration, period, points: As for `optimal_feedforward`.
 
-    Yields
-    ------
-    OptimalFeedforward
-        One a period; the first settles as early as any held command within the limit can. None if
-        nothing settles by `latest`.
+    Yields:
+        OptimalFeedforward: One a period; the first settles as early as any held command within the
+            limit can. None if nothing settles by `latest`.
     """
     pulse = Trial(target, duration, period, period / points, feedforward=_first(duration / period))
     times = period * np.arange(1, round(latest / period) + 1)

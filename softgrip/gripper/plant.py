@@ -16,22 +16,14 @@ from softgrip.errors import InvalidInputError
 class FingerDynamics:
     """One element of P(s), Eq. (6.16): ``gain / (s**3 + damping s**2 + stiffness s)``.
 
-    Attributes
-    ----------
-    damping
-        ``C_n / M_eq``, 1/s, > 0.
-    stiffness
-        ``K_n / M_eq``, 1/s^2, > 0.
-    gain
-        ``c p A_s l / (2 pi C_i M_eq)``, rad/s^3 per unit of the input, > 0.
+    Attributes:
+        damping: ``C_n / M_eq``, 1/s, > 0.
+        stiffness: ``K_n / M_eq``, 1/s^2, > 0.
+        gain: ``c p A_s l / (2 pi C_i M_eq)``, rad/s^3 per unit of the input, > 0.
 
-    Raises
-    ------
-    InvalidInputError
-        If a number is not finite and above zero.
+    Raises:
+        InvalidInputError: If a number is not finite and above zero.
 
-    Examples
-    --------
     >>> round(FingerDynamics(2.66, 3.61, 7.831).natural_frequency, 2)
     1.9
     """
@@ -55,14 +47,11 @@ class FingerDynamics:
     ) -> "FingerDynamics":
         """Return the element from the parameters of finger, Eq. (6.9), and pump, Eq. (6.14).
 
-        Parameters
-        ----------
-        mass, damping, stiffness
-            M_eq, C_n and K_n, in one system of units (kg, N s/rad, N/rad, or as moments).
-        torque_per_pressure
-            c, in the same system, per Pa.
-        pump_gain
-            ``A_s l / (2 pi C_i)``, Pa/s per unit of the input (rad/s of the motor).
+        Args:
+            mass, damping, stiffness: M_eq, C_n and K_n, in one system of units (kg, N s/rad, N/rad,
+                or as moments).
+            torque_per_pressure: c, in the same system, per Pa.
+            pump_gain: ``A_s l / (2 pi C_i)``, Pa/s per unit of the input (rad/s of the motor).
         """
         check_positive(mass=mass)
         return cls(damping / mass, stiffness / mass, torque_per_pressure * pump_gain / mass)
@@ -83,13 +72,9 @@ class FingerDynamics:
 class Gripper:
     """Two or more fingers on one pump: P(s) is a column, Eq. (6.6).
 
-    Raises
-    ------
-    InvalidInputError
-        If there are fewer than two fingers.
+    Raises:
+        InvalidInputError: If there are fewer than two fingers.
 
-    Examples
-    --------
     >>> PRINTED.velocity_gains.round(3).tolist()
     [2.169, 2.559]
     """
@@ -164,16 +149,12 @@ def state_space(gripper: Gripper) -> control.StateSpace:
 class Structure:
     """What Assumption 2 asks of a realization.
 
-    Attributes
-    ----------
-    order
-        Number of states.
-    controllable, observable
-        Ranks of the two matrices of Section 6.4; the order where the property holds.
-    poles
-        1/s, shape (order,).
-    zeros
-        Transmission zeros: where P(s) loses rank, 1/s.
+    Attributes:
+        order: Number of states.
+        controllable, observable: Ranks of the two matrices of Section 6.4; the order where the
+            property holds.
+        poles: 1/s, shape (order,).
+        zeros: Transmission zeros: where P(s) loses rank, 1/s.
     """
 
     order: int
@@ -194,10 +175,8 @@ def structure(system: control.StateSpace) -> Structure:
     Time is counted in units of the fastest pole, without which the powers of A differ by so much
     that the rank is that of rounding errors.
 
-    Parameters
-    ----------
-    system
-        One input, n outputs, a pole other than zero.
+    Args:
+        system: One input, n outputs, a pole other than zero.
     """
     poles = np.linalg.eigvals(system.A)
     A = system.A / np.abs(poles).max()

@@ -43,16 +43,11 @@ def run_printed(
 ) -> GripperRun:
     """Run the printed controller on the printed fingers.
 
-    Parameters
-    ----------
-    target_loop
-        One of `FILTERS`.
-    angle
-        Wanted of both, rad.
-    period, duration
-        s.
-    **conditions
-        As of `run_gripper`: noise, push, limit, delay.
+    Args:
+        target_loop: One of `FILTERS`.
+        angle: Wanted of both, rad.
+        period, duration: s.
+        **conditions: As of `run_gripper`: noise, push, limit, delay.
     """
     controller = InternalModelController(
         PRINTED,

@@ -23,12 +23,9 @@ TOLERANCE = 0.1
 class UnreachableTargetError(SoftgripError, ValueError):
     """A target that one pump cannot give these fingers.
 
-    Attributes
-    ----------
-    share
-        Length of what cannot be reached over that of the target.
-    nearest
-        Nearest target that can be reached, rad, shape (fingers,).
+    Attributes:
+        share: Length of what cannot be reached over that of the target.
+        nearest: Nearest target that can be reached, rad, shape (fingers,).
     """
 
     def __init__(self, target: Floats, nearest: Floats, share: float, tolerance: float) -> None:
@@ -45,14 +42,10 @@ class UnreachableTargetError(SoftgripError, ValueError):
 class Projection:
     """A target split into what is reached and what is left.
 
-    Attributes
-    ----------
-    reached
-        proj(Y_d), rad, shape (fingers,).
-    residual
-        res(Y_d), rad, shape (fingers,): the error that is left in the end.
-    share
-        Length of the residual over that of the target, 0 to 1.
+    Attributes:
+        reached: proj(Y_d), rad, shape (fingers,).
+        residual: res(Y_d), rad, shape (fingers,): the error that is left in the end.
+        share: Length of the residual over that of the target, 0 to 1.
     """
 
     reached: Floats
@@ -65,15 +58,10 @@ def direction(gripper: Gripper, frequency: ArrayLike = 0.0) -> Complex:
 
     It spans the image, and is complex, of shape (..., fingers).
 
-    Parameters
-    ----------
-    gripper
-        The fingers.
-    frequency
-        rad/s, >= 0, any shape. At 0 it is the limit, which is real.
+    Args:
+        gripper: The fingers.
+        frequency: rad/s, >= 0, any shape. At 0 it is the limit, which is real.
 
-    Examples
-    --------
     >>> from softgrip.gripper.plant import PRINTED
     >>> direction(PRINTED).real.round(4).tolist()
     [0.6466, 0.7628]
@@ -93,20 +81,13 @@ def direction(gripper: Gripper, frequency: ArrayLike = 0.0) -> Complex:
 def project(gripper: Gripper, target: ArrayLike) -> Projection:
     """Split target angles at rest, Eq. (6.24), into what can be reached, Eq. (6.25), and the rest.
 
-    Parameters
-    ----------
-    gripper
-        The fingers.
-    target
-        rad, shape (fingers,), not all 0.
+    Args:
+        gripper: The fingers.
+        target: rad, shape (fingers,), not all 0.
 
-    Raises
-    ------
-    InvalidInputError
-        If the target has another shape or is not finite, or is all 0.
+    Raises:
+        InvalidInputError: If the target has another shape or is not finite, or is all 0.
 
-    Examples
-    --------
     >>> from softgrip.gripper.plant import PRINTED
     >>> (project(PRINTED, [np.pi / 3] * 2).reached / np.pi).round(4).tolist()
     [0.3038, 0.3584]
@@ -122,23 +103,15 @@ def project(gripper: Gripper, target: ArrayLike) -> Projection:
 def reachable(gripper: Gripper, target: ArrayLike, *, tolerance: float = TOLERANCE) -> Floats:
     """Return the angles nearest to a target for which Eq. (6.7) holds, if they are near enough.
 
-    Parameters
-    ----------
-    gripper
-        The fingers.
-    target
-        rad, shape (fingers,), not all 0.
-    tolerance
-        Largest share of the target that may be given up, 0 to 1.
+    Args:
+        gripper: The fingers.
+        target: rad, shape (fingers,), not all 0.
+        tolerance: Largest share of the target that may be given up, 0 to 1.
 
-    Raises
-    ------
-    UnreachableTargetError
-        If more than that lies outside, such as for two fingers that are to bend opposite ways. Its
-        nearest target has no negative angle: the fingers bend one way.
+    Raises:
+        UnreachableTargetError: If more than that lies outside, such as for two fingers that are to
+            bend opposite ways. Its nearest target has no negative angle: the fingers bend one way.
 
-    Examples
-    --------
     >>> from softgrip.gripper.plant import PRINTED
     >>> reachable(PRINTED, [np.pi / 4, -np.pi / 4])
     Traceback (most recent call last):
@@ -168,14 +141,10 @@ def outside_share(gripper: Gripper, target: ArrayLike, frequency: ArrayLike) -> 
     direction at rest it is 0 at frequency 0 only: far above the natural frequencies the fingers
     follow their gains and not their velocity gains.
 
-    Parameters
-    ----------
-    gripper
-        The fingers.
-    target
-        rad, shape (fingers,), not all 0.
-    frequency
-        rad/s, >= 0, shape (N,) or ().
+    Args:
+        gripper: The fingers.
+        target: rad, shape (fingers,), not all 0.
+        frequency: rad/s, >= 0, shape (N,) or ().
     """
     wanted = _target(gripper, target)
     q = direction(gripper, frequency)

@@ -27,15 +27,12 @@ from softgrip.gripper.uncertainty import DAMPING_BOUND, STIFFNESS_BOUND
 class Stability:
     """The poles of a closed loop.
 
-    Attributes
-    ----------
-    poles
-        1/s, or of z; without two that rest at the edge in every such loop, those of the pump and
-        of its model. The inverse has a zero there, so nothing that is constant is fed back, and
-        neither is moved: where the two were put they stay, and so they do not run away.
-    margin
-        Distance of the poles from the edge of stability: least decay rate, 1/s, or 1 less the
-        largest modulus. Above 0 if the loop is stable.
+    Attributes:
+        poles: 1/s, or of z; without two that rest at the edge in every such loop, those of the pump
+            and of its model. The inverse has a zero there, so nothing that is constant is fed back,
+            and neither is moved: where the two were put they stay, and so they do not run away.
+        margin: Distance of the poles from the edge of stability: least decay rate, 1/s, or 1 less
+            the largest modulus. Above 0 if the loop is stable.
     """
 
     poles: Complex
@@ -56,14 +53,10 @@ def structured_gain(
 ) -> Floats:
     """Return ``sum |W_i P_i H P-dagger_i|``: below 1 the loop withstands all plants of Eq. (6.17).
 
-    Parameters
-    ----------
-    gripper, inverse, low_pass
-        Nominal plant, P-dagger and H.
-    weights
-        ``|W_T|`` of each finger, shape (fingers, N) or (fingers, 1).
-    frequency
-        rad/s, > 0, shape (N,).
+    Args:
+        gripper, inverse, low_pass: Nominal plant, P-dagger and H.
+        weights: ``|W_T|`` of each finger, shape (fingers, N) or (fingers, 1).
+        frequency: rad/s, > 0, shape (N,).
     """
     s = 1j * np.asarray(frequency, dtype=np.float64)
     column = np.asarray(state_space(gripper)(s)).reshape(len(gripper.fingers), -1)
@@ -79,18 +72,13 @@ def tolerated_uncertainty(gripper: Gripper, feedback: control.StateSpace) -> flo
     withstands 1 over the largest sum of these sizes. At rest a loop that holds its fingers has a
     sum of 1 or more, so no such loop tolerates more than 1, which is a finger that does not move.
 
-    Parameters
-    ----------
-    gripper
-        Nominal plant, with which the loop is stable.
-    feedback
-        F: from the angles to the command, sampled.
+    Args:
+        gripper: Nominal plant, with which the loop is stable.
+        feedback: F: from the angles to the command, sampled.
 
-    Returns
-    -------
-    float
-        A share of each finger's response, on a grid of 2,000 frequencies up to half the sampling
-        frequency.
+    Returns:
+        float: A share of each finger's response, on a grid of 2,000 frequencies up to half the
+            sampling frequency.
     """
     system = state_space(gripper)
     A, B, C, *_ = cont2discrete((system.A, system.B, system.C, system.D), feedback.dt, "zoh")
@@ -127,14 +115,10 @@ def sampled_stability(
 ) -> Stability:
     """Return the poles of the sampled loop, with other fingers or a delay the model ignores.
 
-    Parameters
-    ----------
-    matrices
-        The controller.
-    real
-        The real fingers.
-    delay_samples
-        Periods by which the command comes late, >= 0.
+    Args:
+        matrices: The controller.
+        real: The real fingers.
+        delay_samples: Periods by which the command comes late, >= 0.
     """
     system = state_space(real)
     A_p, B_p, C_p, *_ = cont2discrete(
@@ -164,19 +148,13 @@ def box(
 ) -> list[Gripper]:
     """Return two or more fingers over a grid of the box of C_n and K_n, each finger by itself.
 
-    Parameters
-    ----------
-    gripper
-        The middle of the box.
-    damping, stiffness
-        Half widths as shares, 0 to 1; by default those of Section 6.4.
-    points
-        Grid points a side, >= 2: 2 are the corners.
+    Args:
+        gripper: The middle of the box.
+        damping, stiffness: Half widths as shares, 0 to 1; by default those of Section 6.4.
+        points: Grid points a side, >= 2: 2 are the corners.
 
-    Returns
-    -------
-    list
-        ``points ** (2 fingers)`` grippers.
+    Returns:
+        list: ``points ** (2 fingers)`` grippers.
     """
     side = np.linspace(-1, 1, points)
     grid = np.array(np.meshgrid(*[side] * (2 * len(gripper.fingers)))).reshape(

@@ -13,12 +13,9 @@ class HeldMotion:
 
     The pump is the integral of the command, as in `plant.state_space`.
 
-    Attributes
-    ----------
-    angle
-        Rows that give the angle after 1, 2, ... steps, shape (..., 4, points).
-    rate
-        Row that gives the rate at the end, shape (..., 4).
+    Attributes:
+        angle: Rows that give the angle after 1, 2, ... steps, shape (..., 4, points).
+        rate: Row that gives the rate at the end, shape (..., 4).
     """
 
     angle: Floats
@@ -34,18 +31,12 @@ def held_motion(
     rate: the integral of b from the differential equation integrated once, that of the integral
     from the one integrated twice.
 
-    Parameters
-    ----------
-    damping, stiffness, gain
-        As of `FingerDynamics`, > 0, arrays of one shape.
-    step
-        Time between two points, s, > 0.
-    points
-        How many, >= 1; the hold ends at the last. Twice as many have twice the rounding error: 100
-        are good to about 1e-12 rad per unit of the command.
+    Args:
+        damping, stiffness, gain: As of `FingerDynamics`, > 0, arrays of one shape.
+        step: Time between two points, s, > 0.
+        points: How many, >= 1; the hold ends at the last. Twice as many have twice the rounding
+            error: 100 are good to about 1e-12 rad per unit of the command.
 
-    Examples
-    --------
     >>> one = np.ones(1)
     >>> far = held_motion(one, one, one, step=50.0, points=1)  # at rest the angle follows the pump
     >>> far.angle[0, 2:, 0].round(6).tolist()

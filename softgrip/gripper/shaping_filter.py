@@ -26,13 +26,9 @@ def filter_state_space(numerator: ArrayLike, denominator: ArrayLike) -> control.
     The companion form counts time in units of the mean pole, without which the powers of the
     printed filters' matrices span twelve decades.
 
-    Raises
-    ------
-    InvalidInputError
-        If the degree of the numerator is not below that of the denominator.
+    Raises:
+        InvalidInputError: If the degree of the numerator is not below that of the denominator.
 
-    Examples
-    --------
     >>> filter_state_space(*FAST)(0).round(12).real.item()
     1.0
     """
@@ -55,15 +51,10 @@ def filter_state_space(numerator: ArrayLike, denominator: ArrayLike) -> control.
 def low_pass(cut_off: float, order: int = 3) -> control.StateSpace:
     """Return the filter of Remark 4, ``a_0 / (s^l + ... + a_0)``, of Butterworth's shape.
 
-    Parameters
-    ----------
-    cut_off
-        Where it is 3 dB down, rad/s, > 0.
-    order
-        l, the relative order of the inverse or more: 3 here.
+    Args:
+        cut_off: Where it is 3 dB down, rad/s, > 0.
+        order: l, the relative order of the inverse or more: 3 here.
 
-    Examples
-    --------
     >>> abs(low_pass(4.8)(4.8j)).round(6).item()  # 1 / sqrt(2)
     0.707107
     """
@@ -78,8 +69,6 @@ def low_pass(cut_off: float, order: int = 3) -> control.StateSpace:
 def bandwidth(low_pass: control.StateSpace) -> float:
     """Return the first frequency at which the gain is 3 dB below that at 0, rad/s.
 
-    Examples
-    --------
     >>> [round(bandwidth(filter_state_space(*printed)), 1) for printed in (FAST, SLOW)]
     [6.8, 2.5]
     """
@@ -96,8 +85,6 @@ def plant_inside(numerator: ArrayLike, denominator: ArrayLike) -> tuple[float, f
     If H is ``L / (1 + L)``, then ``L = numerator / (denominator - numerator)``, and the loop holds
     the plant's poles: 0 and the slowest pair.
 
-    Examples
-    --------
     >>> [round(value, 3) for value in plant_inside(*FAST)]
     [2.537, 3.284]
     """
@@ -115,12 +102,9 @@ def rounding_margin(
 
     The effects of all coefficients add up, to first order: no rounding does worse.
 
-    Parameters
-    ----------
-    numerator, denominator
-        As printed; a leading 1 is exact.
-    digits
-        Significant digits of the print.
+    Args:
+        numerator, denominator: As printed; a leading 1 is exact.
+        digits: Significant digits of the print.
     """
     printed = [np.asarray(p, dtype=np.float64) for p in (numerator, denominator)]
     middle = np.array(plant_inside(*printed))

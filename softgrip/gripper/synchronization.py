@@ -13,20 +13,13 @@ def synchronization_error(angles: ArrayLike, target: ArrayLike) -> Floats:
     Unequal fingers have unequal targets, so each angle counts as a share of its own: the largest
     share less the least, scaled by the mean target.
 
-    Parameters
-    ----------
-    angles
-        rad, shape (..., fingers, N).
-    target
-        rad, shape (fingers,), none 0.
+    Args:
+        angles: rad, shape (..., fingers, N).
+        target: rad, shape (fingers,), none 0.
 
-    Raises
-    ------
-    InvalidInputError
-        If the target has another shape, or holds a 0.
+    Raises:
+        InvalidInputError: If the target has another shape, or holds a 0.
 
-    Examples
-    --------
     >>> synchronization_error([[0.0, 0.4], [0.0, 0.6]], [0.8, 1.0]).round(3).tolist()
     [0.0, 0.09]
     """

@@ -21,18 +21,12 @@ TRACKED = 1e-3
 class TheoremTwo:
     """The four conditions of Theorem 2 for a step of the target.
 
-    Attributes
-    ----------
-    rational
-        1: H is a real-rational function, and H P-dagger is proper.
-    bounded
-        2: the error stays bounded.
-    final_error
-        Largest error at rest, rad.
-    tracks
-        3: the error is nearly 0 in the end.
-    stable_input
-        4: the input has all its poles in the open left half plane.
+    Attributes:
+        rational: 1: H is a real-rational function, and H P-dagger is proper.
+        bounded: 2: the error stays bounded.
+        final_error: Largest error at rest, rad.
+        tracks: 3: the error is nearly 0 in the end.
+        stable_input: 4: the input has all its poles in the open left half plane.
     """
 
     rational: bool
@@ -55,17 +49,11 @@ def check_theorem_2(
     The step's pole at 0 cancels in the input, since the inverse has a zero there: the pump moves
     and stops. So the input is stable if ``H P-dagger`` is, and the angles then are bounded.
 
-    Parameters
-    ----------
-    gripper
-        The plant.
-    inverse, low_pass
-        P-dagger and H.
-    target
-        rad, shape (fingers,), not all 0.
+    Args:
+        gripper: The plant.
+        inverse, low_pass: P-dagger and H.
+        target: rad, shape (fingers,), not all 0.
 
-    Examples
-    --------
     >>> from softgrip.gripper.inversion import mean_inverse
     >>> from softgrip.gripper.plant import PRINTED
     >>> from softgrip.gripper.reach import project

@@ -29,17 +29,11 @@ def finger_response(finger: FingerDynamics, frequency: ArrayLike) -> Complex:
 def excited_band(command: ArrayLike, period: float, *, share: float) -> tuple[float, float]:
     """Return the lowest and highest frequency at which a command holds a share of its peak, rad/s.
 
-    Parameters
-    ----------
-    command
-        Shape (N,).
-    period
-        s, > 0. No frequency above ``pi / period`` can be told from one below.
-    share
-        Of the largest magnitude of the FFT, 0 to 1, frequency 0 left out.
+    Args:
+        command: Shape (N,).
+        period: s, > 0. No frequency above ``pi / period`` can be told from one below.
+        share: Of the largest magnitude of the FFT, 0 to 1, frequency 0 left out.
 
-    Examples
-    --------
     >>> t = 0.01 * np.arange(1000)
     >>> [round(w, 2) for w in excited_band(np.sin(2 * np.pi * 2 * t), 0.01, share=0.5)]
     [12.57, 12.57]
@@ -55,12 +49,9 @@ def excited_band(command: ArrayLike, period: float, *, share: float) -> tuple[fl
 def deviation(responses: ArrayLike, nominal: ArrayLike) -> Floats:
     """Return the least ``|W_T|`` that Eq. (6.18) allows at each frequency, over all runs.
 
-    Parameters
-    ----------
-    responses
-        Complex, shape (runs, N).
-    nominal
-        Complex, shape (N,), nowhere 0.
+    Args:
+        responses: Complex, shape (runs, N).
+        nominal: Complex, shape (N,), nowhere 0.
     """
     return np.asarray(np.abs(np.asarray(responses) / np.asarray(nominal) - 1).max(axis=0))
 
@@ -85,19 +76,13 @@ def bounding_weight(
     times it is linear in its coefficients, so the least g is found by halving; the factor with
     poles and zeros on the left is W.
 
-    Parameters
-    ----------
-    frequency
-        rad/s, > 0, shape (N,).
-    bound
-        Shape (N,), > 0.
-    order
-        Number of poles, >= 1; 1 or 2 are usual.
+    Args:
+        frequency: rad/s, > 0, shape (N,).
+        bound: Shape (N,), > 0.
+        order: Number of poles, >= 1; 1 or 2 are usual.
 
-    Raises
-    ------
-    InvalidInputError
-        If shapes or values do not fit.
+    Raises:
+        InvalidInputError: If shapes or values do not fit.
     """
     w, size = np.asarray(frequency, dtype=np.float64), np.asarray(bound, dtype=np.float64)
     if w.shape != size.shape or w.ndim != 1 or order < 1 or not (w.min() > 0 and size.min() > 0):

@@ -53,13 +53,9 @@ Rows = NDArray[np.intp]
 def weight_of(words: str) -> float:
     """Return the force of an event, N.
 
-    Raises
-    ------
-    InvalidInputError
-        If the words are not such.
+    Raises:
+        InvalidInputError: If the words are not such.
 
-    Examples
-    --------
     >>> weight_of("weight: 0.2 N")
     0.2
     """
@@ -87,10 +83,8 @@ class _PadLog:
     def held(self, words: str, rows: Rows, channels: list[int], sign: float = 1.0) -> Rows:
         """Return rows that are held still, those in which the sum of some channels is largest.
 
-        Raises
-        ------
-        DataFileError
-            If none are, or a channel is at the end of the converter's range.
+        Raises:
+            DataFileError: If none are, or a channel is at the end of the converter's range.
         """
         count = max(1, round(HELD / self.log.header.period))
         if len(rows) >= count:
@@ -128,10 +122,8 @@ class _PadLog:
     def at_rest(self) -> Floats:
         """Return the voltages at rest, shape (9,).
 
-        Raises
-        ------
-        DataFileError
-            If nothing is said to be at rest.
+        Raises:
+            DataFileError: If nothing is said to be at rest.
         """
         for words, rows in self.stretches:
             if words == REST:
@@ -145,10 +137,9 @@ class _PadLog:
     def responses(self) -> Floats:
         """Return the responses of the elements in each row, 0 at rest to 1 pressed, (rows, 8).
 
-        Raises
-        ------
-        DataFileError
-            If the log has no rows of its calibration, or an element does not rise when pressed.
+        Raises:
+            DataFileError: If the log has no rows of its calibration, or an element does not rise
+                when pressed.
         """
         rest = self.at_rest()[:ELEMENTS]
         wanted = [f"{PRESS}{k + 1}" for k in range(ELEMENTS)]
@@ -207,20 +198,15 @@ def read_contacts(path: Path | str, labels: Sequence[Label] = ()) -> Contacts:
 
     A press that is not held still is left out, if another one of its stretch is.
 
-    Parameters
-    ----------
-    path
-        Of the log.
-    labels
-        What was not said while it was written.
+    Args:
+        path: Of the log.
+        labels: What was not said while it was written.
 
-    Raises
-    ------
-    DataFileError
-        If it is no log of a pad, has no calibration or no contact, nothing was held still after a
-        word, a channel was saturated, or only some of the columns of `TRUTH` are there.
-    InvalidInputError
-        If a label has no rows, or other words than an event.
+    Raises:
+        DataFileError: If it is no log of a pad, has no calibration or no contact, nothing was held
+            still after a word, a channel was saturated, or only some of the columns of `TRUTH` are
+            there.
+        InvalidInputError: If a label has no rows, or other words than an event.
     """
     pad = _open(path, labels)
     given = [name for name in TRUTH if name in pad.log.columns]

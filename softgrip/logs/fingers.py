@@ -40,18 +40,12 @@ def fingers_of(log: Log, name: str = "angle") -> Floats:
 class GripperLogs:
     """Several runs of one experiment, SI.
 
-    Attributes
-    ----------
-    time
-        s, shape (N,), evenly sampled.
-    commands
-        Motor speed held until each time, rad/s, shape (runs, N).
-    angles
-        rad, shape (runs, fingers, N).
-    references
-        rad, shape (fingers, N), or (0,) in open loop.
-    events
-        Of the first run: (time in s, words).
+    Attributes:
+        time: s, shape (N,), evenly sampled.
+        commands: Motor speed held until each time, rad/s, shape (runs, N).
+        angles: rad, shape (runs, fingers, N).
+        references: rad, shape (fingers, N), or (0,) in open loop.
+        events: Of the first run: (time in s, words).
     """
 
     time: Floats
@@ -74,10 +68,8 @@ class GripperLogs:
 def read_runs(paths: Sequence[Path | str]) -> GripperLogs:
     """Read logs of one experiment.
 
-    Raises
-    ------
-    DataFileError
-        If a log has one finger only, or as of `read_alike`.
+    Raises:
+        DataFileError: If a log has one finger only, or as of `read_alike`.
     """
     logs = read_alike(paths)
     for path, log in zip(paths, logs, strict=True):
@@ -135,10 +127,9 @@ def run_deviation(logs: GripperLogs, finger: int) -> tuple[Floats, Floats]:
     The command is the same in all runs, so that the ratio of two responses is that of the angles;
     their differences from sample to sample are taken, which come to rest.
 
-    Returns
-    -------
-    tuple
-        Frequency, rad/s, up to half the sampling frequency, and the largest deviation, a share.
+    Returns:
+        tuple: Frequency, rad/s, up to half the sampling frequency, and the largest deviation, a
+            share.
     """
     moved = np.diff(logs.angles[:, finger], axis=-1)
     spectra = np.fft.rfft(moved)[:, 1:]

@@ -36,14 +36,10 @@ MOST_NAMED = 6
 class Gap:
     """Rows that are missing.
 
-    Attributes
-    ----------
-    row
-        Number of the row before them, counted from 0.
-    start, end
-        Times of the rows before and after them, s.
-    missing
-        How many they are.
+    Attributes:
+        row: Number of the row before them, counted from 0.
+        start, end: Times of the rows before and after them, s.
+        missing: How many they are.
     """
 
     row: int
@@ -62,15 +58,10 @@ def intervals(time: ArrayLike, period: float) -> Floats:
     A whole number where only the rounding of decimals parts it from one: sums over an even log are
     then exact.
 
-    Parameters
-    ----------
-    time
-        s, shape (N,), increasing.
-    period
-        s, > 0.
+    Args:
+        time: s, shape (N,), increasing.
+        period: s, > 0.
 
-    Examples
-    --------
     >>> intervals([0.025, 0.05, 0.125, 0.151], 0.025).round(6).tolist()
     [1.0, 3.0, 1.04]
     """
@@ -82,8 +73,6 @@ def intervals(time: ArrayLike, period: float) -> Floats:
 def find_gaps(time: ArrayLike, period: float) -> tuple[Gap, ...]:
     """Return where rows are missing; parameters as of `intervals`.
 
-    Examples
-    --------
     >>> [str(gap) for gap in find_gaps([0.0, 1.0, 4.0, 5.4], 1.0)]
     ['2 rows missing between 1 and 4 s (row 2)']
     """
@@ -97,11 +86,9 @@ def find_gaps(time: ArrayLike, period: float) -> tuple[Gap, ...]:
 def check_period(path: Path | str, header: LogHeader, time: Floats) -> None:
     """Refuse rows that are another time apart than their header says.
 
-    Raises
-    ------
-    DataFileError
-        If the mean interval without gaps is off by more than `PERIOD_WITHIN` and the ticks of the
-        clock, or fewer intervals than `LEAST_WHOLE` are without gaps.
+    Raises:
+        DataFileError: If the mean interval without gaps is off by more than `PERIOD_WITHIN` and the
+            ticks of the clock, or fewer intervals than `LEAST_WHOLE` are without gaps.
     """
     if not header.clocked or time.size < 2:
         return
@@ -137,19 +124,13 @@ def places(gaps: Sequence[Gap]) -> str:
 def refuse_gaps(path: Path | str, log: Log, why: str, *, above: float = 0.0) -> None:
     """Refuse a log in which rows are missing.
 
-    Parameters
-    ----------
-    path, log
-        What is read.
-    why
-        What needs the rows, for the message.
-    above
-        Time that may be missing in one place, s.
+    Args:
+        path, log: What is read.
+        why: What needs the rows, for the message.
+        above: Time that may be missing in one place, s.
 
-    Raises
-    ------
-    DataFileError
-        If more is missing; it names the places.
+    Raises:
+        DataFileError: If more is missing; it names the places.
     """
     period = log.header.period
     if gaps := [gap for gap in gaps_of(log) if gap.missing * period > above + ROUNDING * period]:
@@ -161,10 +142,8 @@ def refuse_gaps(path: Path | str, log: Log, why: str, *, above: float = 0.0) -> 
 class EvenClock:
     """A log's rows among those of an even clock.
 
-    Attributes
-    ----------
-    number
-        Of each row that is there, from 0, shape (N,).
+    Attributes:
+        number: Of each row that is there, from 0, shape (N,).
     """
 
     number: NDArray[np.intp]

@@ -10,10 +10,8 @@ from softgrip.pump.flow import Pump
 def pump_of(path: Path, log: Log) -> Pump:
     """Return the pump that a log names by ``area`` in m^2 and ``lead`` in m.
 
-    Raises
-    ------
-    DataFileError
-        If the header lacks one of them, or has another unit.
+    Raises:
+        DataFileError: If the header lacks one of them, or has another unit.
     """
     notes = log.header.notes
     try:

@@ -34,21 +34,15 @@ REFERENCE = "simulated/push-a.csv"
 class PressureComparison:
     """A push, measured and as three models have it.
 
-    Attributes
-    ----------
-    time
-        s, shape (N,).
-    measured, constant, modified, filtered
-        Gauge pressure, Pa, shape (N,): measured; by Eq. (4.5); by Eq. (4.7); and by Eq. (4.5)
-        with the capacity that the filter holds at each sample, integrated without correction.
-    capacity
-        Of the constant model, m^3/Pa.
-    growth
-        c of the modified model, 1/Pa.
-    estimated
-        What the filter holds.
-    provenance
-        Of the log.
+    Attributes:
+        time: s, shape (N,).
+        measured, constant, modified, filtered: Gauge pressure, Pa, shape (N,): measured; by Eq.
+            (4.5); by Eq. (4.7); and by Eq. (4.5) with the capacity that the filter holds at each
+            sample, integrated without correction.
+        capacity: Of the constant model, m^3/Pa.
+        growth: c of the modified model, 1/Pa.
+        estimated: What the filter holds.
+        provenance: Of the log.
     """
 
     time: Floats
@@ -122,18 +116,14 @@ def prior(capacity: float) -> Prior:
 def compare(path: Path | str, *, noise_factor: float = 1.0) -> PressureComparison:
     """Hold the three models against a log of a push at one motor speed.
 
-    Parameters
-    ----------
-    path
-        A log in the one schema, with area and lead of the pump in its header.
-    noise_factor
-        Multiplies the filter's elastance noise, > 0: above 1 it follows faster and noisier.
+    Args:
+        path: A log in the one schema, with area and lead of the pump in its header.
+        noise_factor: Multiplies the filter's elastance noise, > 0: above 1 it follows faster and
+            noisier.
 
-    Raises
-    ------
-    DataFileError
-        If the log cannot be read, or does not name its pump, or holds no pressure below `LOW`
-        and above `HIGH`, or its gaps or its start leave open what was swept.
+    Raises:
+        DataFileError: If the log cannot be read, or does not name its pump, or holds no pressure
+            below `LOW` and above `HIGH`, or its gaps or its start leave open what was swept.
     """
     log = read_log(path)
     pump = pump_of(Path(path), log)

@@ -19,15 +19,11 @@ class RunLog:
     A disk that is full, or a row that cannot be written, ends the log and not the run: `failure`
     then says what happened, and a line on the standard error stream says it at once.
 
-    Parameters
-    ----------
-    path, header, more
-        As of `LogWriter`, whose errors on opening are raised here too.
+    Args:
+        path, header, more: As of `LogWriter`, whose errors on opening are raised here too.
 
-    Attributes
-    ----------
-    failure
-        Why rows are missing; empty if none is.
+    Attributes:
+        failure: Why rows are missing; empty if none is.
     """
 
     def __init__(

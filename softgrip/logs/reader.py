@@ -54,12 +54,9 @@ def _columns(
 ) -> tuple[list[str], list[float], list[str]]:
     """Return the names of the columns, factors into their units, and what was converted.
 
-    Parameters
-    ----------
-    path, text, line
-        The line of names, and where it stands.
-    columns
-        Those that must be there, with their units.
+    Args:
+        path, text, line: The line of names, and where it stands.
+        columns: Those that must be there, with their units.
     """
     cells = text.split(",")
     if cells[-1] != EVENT:
@@ -96,17 +93,13 @@ def read_log(path: Path | str) -> Log:
     that is not a number; a row written twice counts once; a known other unit is converted. Missing
     rows are not put back, but said there too, with their place.
 
-    Parameters
-    ----------
-    path
-        Of the log.
+    Args:
+        path: Of the log.
 
-    Raises
-    ------
-    DataFileError
-        If a column is missing, a unit unknown, a row of another width, a value elsewhere not a
-        finite number, if time stands or runs back, or if the rows are another time apart than the
-        header says. It names the file and, where known, the line.
+    Raises:
+        DataFileError: If a column is missing, a unit unknown, a row of another width, a value
+            elsewhere not a finite number, if time stands or runs back, or if the rows are another
+            time apart than the header says. It names the file and, where known, the line.
     """
     file = Path(path)
     try:

@@ -19,10 +19,8 @@ def read_alike(paths: Sequence[Path | str]) -> list[Log]:
     None may have a gap: what is made of runs is their mean at each time, their spectra, and models
     that take input and output between two samples as known.
 
-    Raises
-    ------
-    DataFileError
-        If a log cannot be read, has a gap, or other times than the first.
+    Raises:
+        DataFileError: If a log cannot be read, has a gap, or other times than the first.
     """
     logs = [read_log(path) for path in paths]
     time = logs[0]["time"]
@@ -37,12 +35,9 @@ def read_alike(paths: Sequence[Path | str]) -> list[Log]:
 class StepTest:
     """Several runs of one step and their mean, SI.
 
-    Attributes
-    ----------
-    time
-        s, shape (N,).
-    pressures, angles
-        Gauge pressure, Pa, and angle, rad, of each run, shape (runs, N).
+    Attributes:
+        time: s, shape (N,).
+        pressures, angles: Gauge pressure, Pa, and angle, rad, of each run, shape (runs, N).
     """
 
     time: Floats
@@ -63,15 +58,12 @@ class StepTest:
 def read_step_test(paths: Sequence[Path | str]) -> StepTest:
     """Read the runs of one step from their logs.
 
-    Parameters
-    ----------
-    paths
-        Logs that start at rest and at atmospheric pressure, with the same times; at least one.
+    Args:
+        paths: Logs that start at rest and at atmospheric pressure, with the same times; at least
+            one.
 
-    Raises
-    ------
-    DataFileError
-        As of `read_alike`.
+    Raises:
+        DataFileError: As of `read_alike`.
     """
     logs = read_alike(paths)
     return StepTest(

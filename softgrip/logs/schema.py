@@ -71,26 +71,16 @@ KNOWN_UNITS: Mapping[tuple[str, str], float] = {
 class LogHeader:
     """What is said of a log before its first row.
 
-    Attributes
-    ----------
-    provenance
-        simulated or logged.
-    source
-        What made it: a command, or the name of a rig.
-    back_end
-        simulated rig, replay, emulated board or board.
-    board, firmware
-        Names and versions; "none" without a board.
-    calibration
-        Name of the calibration of the sensors or of the rig.
-    seed
-        Of chance; empty without.
-    period
-        Sampling period, s; for rows that no clock gives, the time between the first two.
-    notes
-        More keys and values, of one line each.
-    set_up
-        What was logged: gripper or pad.
+    Attributes:
+        provenance: simulated or logged.
+        source: What made it: a command, or the name of a rig.
+        back_end: simulated rig, replay, emulated board or board.
+        board, firmware: Names and versions; "none" without a board.
+        calibration: Name of the calibration of the sensors or of the rig.
+        seed: Of chance; empty without.
+        period: Sampling period, s; for rows that no clock gives, the time between the first two.
+        notes: More keys and values, of one line each.
+        set_up: What was logged: gripper or pad.
     """
 
     provenance: Provenance
@@ -155,16 +145,12 @@ class LogHeader:
 class Log:
     """A log that was read.
 
-    Attributes
-    ----------
-    header
-        What it says of itself.
-    columns
-        Values in SI by name, each of shape (samples,).
-    events
-        (time in s, words), in order.
-    repairs
-        What the reader changed, or where rows are missing, one sentence each; empty if nothing.
+    Attributes:
+        header: What it says of itself.
+        columns: Values in SI by name, each of shape (samples,).
+        events: (time in s, words), in order.
+        repairs: What the reader changed, or where rows are missing, one sentence each; empty if
+            nothing.
     """
 
     header: LogHeader

@@ -21,17 +21,13 @@ a second, that is an error of half of it over n."""
 class StaircaseFigures:
     """The figures of a staircase.
 
-    Attributes
-    ----------
-    edges
-        Number of changes of the reference.
-    time_to_half, time_to_change
-        From a change of the reference until the mean response to all changes has covered 50 and
-        90 % of it, s; infinite if it does not within the shortest hold.
-    lag
-        Delay at which the angle is most alike the reference, s.
-    rms_error
-        Of angle against reference, rad.
+    Attributes:
+        edges: Number of changes of the reference.
+        time_to_half, time_to_change: From a change of the reference until the mean response to all
+            changes has covered 50 and 90 % of it, s; infinite if it does not within the shortest
+            hold.
+        lag: Delay at which the angle is most alike the reference, s.
+        rms_error: Of angle against reference, rad.
     """
 
     edges: int
@@ -44,17 +40,11 @@ class StaircaseFigures:
 def lag(reference: ArrayLike, angle: ArrayLike, period: float, *, longest: float = 3.0) -> float:
     """Return the delay, s, of the largest correlation between reference and later angle.
 
-    Parameters
-    ----------
-    reference, angle
-        rad, shape (N,), evenly sampled, not constant.
-    period
-        s, > 0; the lag is a multiple of it.
-    longest
-        Largest delay that is tried, s; it must leave half of the record.
+    Args:
+        reference, angle: rad, shape (N,), evenly sampled, not constant.
+        period: s, > 0; the lag is a multiple of it.
+        longest: Largest delay that is tried, s; it must leave half of the record.
 
-    Examples
-    --------
     >>> wave = np.sin(np.arange(400) / 20)
     >>> lag(wave[10:], wave[:-10], 0.025)
     0.25
@@ -80,19 +70,15 @@ def mean_edge(
     takes most of the noise away. A loop that has not come to rest in a hold starts the next change
     from a share below 0.
 
-    Parameters
-    ----------
-    time, reference, angle
-        s, rad, rad, shape (N,), evenly sampled, with at least one step in the reference; steps, not
-        ramps.
-    measured
-        Which samples were measured and not bridged, shape (N,). The length of a hold is that of one
-        whose both ends are.
+    Args:
+        time, reference, angle: s, rad, rad, shape (N,), evenly sampled, with at least one step in
+            the reference; steps, not ramps.
+        measured: Which samples were measured and not bridged, shape (N,). The length of a hold is
+            that of one whose both ends are.
 
-    Raises
-    ------
-    InvalidInputError
-        If times are missing, there is no change or no such hold, or the reference is a ramp.
+    Raises:
+        InvalidInputError: If times are missing, there is no change or no such hold, or the
+            reference is a ramp.
     """
     t, r, y = (np.asarray(values, np.float64) for values in (time, reference, angle))
     if gaps := find_gaps(t, float(np.median(np.diff(t)))):
@@ -121,15 +107,11 @@ def mean_edge(
 def staircase_figures(path: Path | str) -> StaircaseFigures:
     """Judge the staircase that a log holds.
 
-    Parameters
-    ----------
-    path
-        Of a log with a column `reference` [rad] that changes in steps.
+    Args:
+        path: Of a log with a column `reference` [rad] that changes in steps.
 
-    Raises
-    ------
-    DataFileError
-        If the log has no such reference, or misses more than `LONGEST` in one place.
+    Raises:
+        DataFileError: If the log has no such reference, or misses more than `LONGEST` in one place.
     """
     log = read_log(path)
     if "reference" not in log.columns:

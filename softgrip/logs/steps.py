@@ -35,20 +35,15 @@ About = Literal["reference", "own end"]
 class StepFigures:
     """The figures of a step, each of shape () or (runs,).
 
-    Attributes
-    ----------
-    settled_2_percent, settled_5_percent
-        Time after which the angle stays within a share of the step, s; infinite if it does not, or
-        if that begins only within the last `END` of the record: too short to call it rest.
-    settled_2_deg, settled_5_deg
-        The same within 2 and 5 deg.
-    steady_state_error
-        Reference less the mean of the end, rad.
-    swing
-        Half the distance of the least from the largest averaged angle of the end, rad.
-    noise
-        Root mean square of what the averaging took away at the end, rad. A band below a few times
-        ``noise / sqrt(samples averaged)`` is judged by chance.
+    Attributes:
+        settled_2_percent, settled_5_percent: Time after which the angle stays within a share of the
+            step, s; infinite if it does not, or if that begins only within the last `END` of the
+            record: too short to call it rest.
+        settled_2_deg, settled_5_deg: The same within 2 and 5 deg.
+        steady_state_error: Reference less the mean of the end, rad.
+        swing: Half the distance of the least from the largest averaged angle of the end, rad.
+        noise: Root mean square of what the averaging took away at the end, rad. A band below a few
+            times ``noise / sqrt(samples averaged)`` is judged by chance.
     """
 
     settled_2_percent: Floats
@@ -63,14 +58,10 @@ class StepFigures:
 def smoothed(angle: ArrayLike, period: float, *, window: float = WINDOW) -> Floats:
     """Return the mean about each sample, so without a delay; beyond the ends the ends go on.
 
-    Parameters
-    ----------
-    angle
-        rad, shape (N,) or (runs, N).
-    period
-        s, > 0.
-    window
-        s, >= 0; the odd number of samples nearest above it is taken, one for 0.
+    Args:
+        angle: rad, shape (N,) or (runs, N).
+        period: s, > 0.
+        window: s, >= 0; the odd number of samples nearest above it is taken, one for 0.
     """
     check_positive(period=period)
     samples = 2 * round(window / period / 2) + 1
@@ -89,26 +80,18 @@ def step_figures(
 ) -> StepFigures:
     """Judge a step.
 
-    Parameters
-    ----------
-    time
-        Since the step, s, shape (N,), evenly sampled.
-    angle
-        rad, shape (N,) or (runs, N).
-    target, initial
-        Reference after and before the step, rad.
-    about
-        Middle of the bands: the reference, or the mean of the response's own end. A response that
-        keeps an error as large as the band settles about the second alone.
-    window
-        Of the averaging, s; 0 for a response without noise.
-    measured
-        Which samples were measured and not bridged, shape (N,): the noise is that of these.
+    Args:
+        time: Since the step, s, shape (N,), evenly sampled.
+        angle: rad, shape (N,) or (runs, N).
+        target, initial: Reference after and before the step, rad.
+        about: Middle of the bands: the reference, or the mean of the response's own end. A response
+            that keeps an error as large as the band settles about the second alone.
+        window: Of the averaging, s; 0 for a response without noise.
+        measured: Which samples were measured and not bridged, shape (N,): the noise is that of
+            these.
 
-    Raises
-    ------
-    InvalidInputError
-        If the times do not increase, or samples are missing.
+    Raises:
+        InvalidInputError: If the times do not increase, or samples are missing.
     """
     t, raw = np.asarray(time, np.float64), np.asarray(angle, np.float64)
     if gaps := find_gaps(t, float(np.median(np.diff(t)))):
@@ -141,19 +124,14 @@ def step_log_figures(
 ) -> StepFigures:
     """Judge the step that a log holds.
 
-    Parameters
-    ----------
-    path
-        Of a log with a column `reference` [rad], which either changes once or is one number from
-        the first sample on, the step being at that sample.
-    about, window
-        As of `step_figures`.
+    Args:
+        path: Of a log with a column `reference` [rad], which either changes once or is one number
+            from the first sample on, the step being at that sample.
+        about, window: As of `step_figures`.
 
-    Raises
-    ------
-    DataFileError
-        If the log has no reference, its reference is no single step, or more than `BRIDGED` of the
-        window is missing in one place.
+    Raises:
+        DataFileError: If the log has no reference, its reference is no single step, or more than
+            `BRIDGED` of the window is missing in one place.
     """
     log = read_log(path)
     if "reference" not in log.columns:

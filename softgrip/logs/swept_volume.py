@@ -23,17 +23,12 @@ def swept_volume(path: Path | str, log: Log, flow: Floats) -> Floats:
     A row tells the command that was held until its time, the first one for a period. The rows of a
     gap tell nothing: it is bridged where the command is the same on both sides.
 
-    Parameters
-    ----------
-    path, log
-        What is read.
-    flow
-        Of each row's command, m^3/s, shape (N,).
+    Args:
+        path, log: What is read.
+        flow: Of each row's command, m^3/s, shape (N,).
 
-    Raises
-    ------
-    DataFileError
-        If the command changes over a gap, or the gap is longer than `LONGEST`.
+    Raises:
+        DataFileError: If the command changes over a gap, or the gap is longer than `LONGEST`.
     """
     command = log["command"]
     if lost := [
@@ -55,18 +50,13 @@ def swept_volume(path: Path | str, log: Log, flow: Floats) -> Floats:
 def check_start(path: Path | str, swept: Floats, pressure: Floats) -> None:
     """Refuse a push without its beginning: what it swept then would be missing throughout.
 
-    Parameters
-    ----------
-    path
-        Named in the error.
-    swept, pressure
-        m^3 and Pa (gauge) at low pressure, shape (N,).
+    Args:
+        path: Named in the error.
+        swept, pressure: m^3 and Pa (gauge) at low pressure, shape (N,).
 
-    Raises
-    ------
-    DataFileError
-        If there are fewer than `LEAST_ROWS` rows, or a parabola through the pressure begins above
-        `START`.
+    Raises:
+        DataFileError: If there are fewer than `LEAST_ROWS` rows, or a parabola through the pressure
+            begins above `START`.
     """
     if swept.size < LEAST_ROWS or not np.ptp(swept) > 0:
         raise DataFileError(

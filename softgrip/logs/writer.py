@@ -24,24 +24,15 @@ class LogWriter:
 
     Each row leaves the process at once, and goes to the disk once a second.
 
-    Parameters
-    ----------
-    path
-        File to make; it must not exist, since a log is never written over.
-    header
-        What stands before the rows.
-    more
-        Columns beside those of the header's set-up, with their units.
-    clock
-        Gives the seconds by which the disk is reached.
+    Args:
+        path: File to make; it must not exist, since a log is never written over.
+        header: What stands before the rows.
+        more: Columns beside those of the header's set-up, with their units.
+        clock: Gives the seconds by which the disk is reached.
 
-    Raises
-    ------
-    InvalidInputError
-        If the file exists.
+    Raises:
+        InvalidInputError: If the file exists.
 
-    Examples
-    --------
     >>> import tempfile
     >>> from softgrip.provenance import Provenance
     >>> header = LogHeader(Provenance.SIMULATED, "an example", "simulated rig", 0.025)
@@ -86,13 +77,10 @@ class LogWriter:
     def write(self, *, event: str = "", **values: float) -> None:
         """Append one row.
 
-        Parameters
-        ----------
-        event
-            Words without comma, quote, ``#`` or anything that cannot be printed, such as a break.
-            `queued_writer.plain` makes such of any.
-        **values
-            A finite number for each column, in its unit; time must rise.
+        Args:
+            event: Words without comma, quote, ``#`` or anything that cannot be printed, such as a
+                break. `queued_writer.plain` makes such of any.
+            **values: A finite number for each column, in its unit; time must rise.
         """
         if values.keys() != self.units.keys():
             raise InvalidInputError("values", expected=f"{list(self.units)}", got=list(values))

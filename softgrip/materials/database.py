@@ -46,13 +46,9 @@ _HOW_TO_GET_IT = (
 def file_name(name: str) -> str:
     """Return the database's file name of a material.
 
-    Raises
-    ------
-    UnknownNameError
-        If the name is not one of Table 5.1.
+    Raises:
+        UnknownNameError: If the name is not one of Table 5.1.
 
-    Examples
-    --------
     >>> file_name("SORTA-Clear 40")
     'SortaClear 40.csv'
     """
@@ -64,14 +60,11 @@ def file_name(name: str) -> str:
 def locate(name: str) -> Path:
     """Return the path of a material's file, fetched if need be, with its digest checked.
 
-    Raises
-    ------
-    UnknownNameError
-        If the name is not one of Table 5.1.
-    DataUnavailableError
-        If the named folder or its file is missing, or the network did not give the file.
-    DataFileError
-        If the folder's file is not, byte by byte, the published one.
+    Raises:
+        UnknownNameError: If the name is not one of Table 5.1.
+        DataUnavailableError: If the named folder or its file is missing, or the network did not
+            give the file.
+        DataFileError: If the folder's file is not, byte by byte, the published one.
     """
     file = file_name(name)
     folder = os.environ.get(FOLDER_VARIABLE)
@@ -81,10 +74,9 @@ def locate(name: str) -> Path:
 def available() -> bool:
     """Tell whether all files can be read; without network it is tried once a process.
 
-    Raises
-    ------
-    DataUnavailableError, DataFileError
-        If a folder is named and is not in order: a wrong setting should not pass for no data.
+    Raises:
+        DataUnavailableError, DataFileError: If a folder is named and is not in order: a wrong
+            setting should not pass for no data.
     """
     if os.environ.get(FOLDER_VARIABLE):
         return all(locate(name) for name in SHA256)

@@ -19,18 +19,12 @@ from softgrip.reads import remembered
 class TensileFacts:
     """A tensile test in numbers.
 
-    Attributes
-    ----------
-    name
-        Material.
-    hundred_percent_modulus
-        Engineering stress at strain 1, Pa.
-    peak_stress, peak_strain
-        Largest engineering stress [Pa], and the engineering strain there.
-    yeoh_1, yeoh_2, yeoh_3
-        Coefficients of Yeoh's law fitted up to the peak, Pa.
-    yeoh_rms
-        Its RMS misfit in engineering stress, Pa.
+    Attributes:
+        name: Material.
+        hundred_percent_modulus: Engineering stress at strain 1, Pa.
+        peak_stress, peak_strain: Largest engineering stress [Pa], and the engineering strain there.
+        yeoh_1, yeoh_2, yeoh_3: Coefficients of Yeoh's law fitted up to the peak, Pa.
+        yeoh_rms: Its RMS misfit in engineering stress, Pa.
     """
 
     name: str

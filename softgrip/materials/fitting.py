@@ -33,16 +33,12 @@ LONGEST_STRAINS = (2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, inf)
 class Fitting:
     """One way to fit Ludwick's law to a tensile test.
 
-    Attributes
-    ----------
-    stress
-        "true" (force on the present area, of a solid that keeps its volume) or "engineering".
-    loss
-        As for `softgrip.materials.ludwick.fit`.
-    longest_strain
-        Engineering strain up to which the curve is used; never beyond its peak.
-    modulus
-        E "held" at the value of Table 5.1, or "free".
+    Attributes:
+        stress: "true" (force on the present area, of a solid that keeps its volume) or
+            "engineering".
+        loss: As for `softgrip.materials.ludwick.fit`.
+        longest_strain: Engineering strain up to which the curve is used; never beyond its peak.
+        modulus: E "held" at the value of Table 5.1, or "free".
     """
 
     stress: Stress = "true"
@@ -79,10 +75,8 @@ def bootstrap_interval(
     are drawn, in runs of about the square root of their number. The interval speaks of this one
     specimen and this way of fitting; it knows nothing of other specimens or other ways.
 
-    Raises
-    ------
-    InvalidInputError
-        If `confidence` is not between 0 and 1.
+    Raises:
+        InvalidInputError: If `confidence` is not between 0 and 1.
     """
     if not 0 < confidence < 1:
         raise InvalidInputError("confidence", expected="a number in (0, 1)", got=confidence)

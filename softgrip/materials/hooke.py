@@ -6,26 +6,17 @@ from softgrip.arrays import Value, check_positive
 def stress(strain: Value, young_modulus: float) -> Value:
     """Return the stress of a linear material, Eq. (5.1).
 
-    Parameters
-    ----------
-    strain
-        Engineering strain, dimensionless, any shape. Meant for small strains; an elastomer leaves
-        the line well before it has doubled its length.
-    young_modulus
-        E, Pa, > 0.
+    Args:
+        strain: Engineering strain, dimensionless, any shape. Meant for small strains; an elastomer
+            leaves the line well before it has doubled its length.
+        young_modulus: E, Pa, > 0.
 
-    Returns
-    -------
-    float or ndarray
-        Engineering stress, Pa, shape of `strain`.
+    Returns:
+        float or ndarray: Engineering stress, Pa, shape of `strain`.
 
-    Raises
-    ------
-    InvalidInputError
-        If `young_modulus` is not a finite number above zero.
+    Raises:
+        InvalidInputError: If `young_modulus` is not a finite number above zero.
 
-    Examples
-    --------
     >>> stress(0.1, 0.26e6)
     26000.0
     """

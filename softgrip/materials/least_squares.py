@@ -14,14 +14,10 @@ from softgrip.errors import InvalidInputError
 class Prediction:
     """A predicted response with the interval that should hold a new measured one.
 
-    Attributes
-    ----------
-    value
-        Prediction.
-    low, high
-        Ends of the interval.
-    confidence
-        Probability that a new response lies within it, if the model holds.
+    Attributes:
+        value: Prediction.
+        low, high: Ends of the interval.
+        confidence: Probability that a new response lies within it, if the model holds.
     """
 
     value: float
@@ -36,25 +32,17 @@ def normal_equations(A: ArrayLike, y: ArrayLike) -> Floats:
     The product of A with its transpose squares the condition number, so the columns should be of
     one order of magnitude; those of Eq. (5.7) are.
 
-    Parameters
-    ----------
-    A
-        One row for each of m observations, one column for each of p predictors, shape (m, p).
-    y
-        Responses, shape (m,).
+    Args:
+        A: One row for each of m observations, one column for each of p predictors, shape (m, p).
+        y: Responses, shape (m,).
 
-    Returns
-    -------
-    ndarray
-        Coefficients x, shape (p,).
+    Returns:
+        ndarray: Coefficients x, shape (p,).
 
-    Raises
-    ------
-    InvalidInputError
-        If the shapes do not fit, m < p, or a column depends on others (no inverse exists).
+    Raises:
+        InvalidInputError: If the shapes do not fit, m < p, or a column depends on others (no
+            inverse exists).
 
-    Examples
-    --------
     >>> normal_equations([[1, 0], [0, 2], [0, 0]], [3, 4, 5]).tolist()
     [3.0, 2.0]
     """
@@ -75,25 +63,16 @@ def prediction_interval(
     It holds when the response is linear in the columns with independent normal errors of one
     spread. An intercept is a column of ones in `A` and a one in `a`.
 
-    Parameters
-    ----------
-    A
-        Predictors of the m known rows, shape (m, p), m > p.
-    y
-        Responses of the known rows, shape (m,).
-    a
-        Predictors of the new row, shape (p,).
-    confidence
-        Between 0 and 1, both excluded.
+    Args:
+        A: Predictors of the m known rows, shape (m, p), m > p.
+        y: Responses of the known rows, shape (m,).
+        a: Predictors of the new row, shape (p,).
+        confidence: Between 0 and 1, both excluded.
 
-    Raises
-    ------
-    InvalidInputError
-        If m <= p (no error can be estimated), a shape does not fit, the columns depend on each
-        other, or `confidence` is out of range.
+    Raises:
+        InvalidInputError: If m <= p (no error can be estimated), a shape does not fit, the columns
+            depend on each other, or `confidence` is out of range.
 
-    Examples
-    --------
     >>> prediction_interval([[1], [1], [1]], [1, 2, 3], [1], confidence=0.5).value
     2.0
     """

@@ -28,14 +28,10 @@ RIVALS: Mapping[str, Callable[[], Any]] = MappingProxyType(
 class HeldOut:
     """A material predicted by a model fitted without it.
 
-    Attributes
-    ----------
-    name
-        The material.
-    without
-        All materials that the fit had not seen, this one included.
-    printed, predicted
-        Fractional power of Table 5.1, and that of the model.
+    Attributes:
+        name: The material.
+        without: All materials that the fit had not seen, this one included.
+        printed, predicted: Fractional power of Table 5.1, and that of the model.
     """
 
     name: str
@@ -53,12 +49,9 @@ class HeldOut:
 class LeaveOut:
     """All predictions when each set of k materials is held out once.
 
-    Attributes
-    ----------
-    k
-        Number of materials held out at a time.
-    predictions
-        One for each material of each set.
+    Attributes:
+        k: Number of materials held out at a time.
+        predictions: One for each material of each set.
     """
 
     k: int
@@ -84,23 +77,15 @@ def leave_k_out(
 ) -> LeaveOut:
     """Hold out each set of k materials, fit to the rest and predict those held out.
 
-    Parameters
-    ----------
-    k
-        1 or more; at least one more material than the three coefficients of Eq. (5.8) must stay.
-    model
-        Any scikit-learn regressor of (E, MV, TS) in SI; None for that of Eq. (5.8). A
-        ``DummyRegressor`` shows what the mean alone would do.
-    materials
-        None for all ten of Table 5.1.
+    Args:
+        k: 1 or more; at least one more material than the three coefficients of Eq. (5.8) must stay.
+        model: Any scikit-learn regressor of (E, MV, TS) in SI; None for that of Eq. (5.8). A
+            ``DummyRegressor`` shows what the mean alone would do.
+        materials: None for all ten of Table 5.1.
 
-    Raises
-    ------
-    InvalidInputError
-        If k is out of range.
+    Raises:
+        InvalidInputError: If k is out of range.
 
-    Examples
-    --------
     >>> len(leave_k_out(1).predictions), len(leave_k_out(2).predictions)
     (10, 90)
     """

@@ -21,19 +21,13 @@ EXPONENT_RANGE = (0.1, 10.0)
 class LudwickFit:
     """Ludwick's law fitted to a tensile test.
 
-    Attributes
-    ----------
-    young_modulus
-        E, Pa: the value held, or the fitted one.
-    fractional_power
-        n, dimensionless.
-    rms_stress
-        Root mean square of measured minus fitted stress over the rows used, Pa. It is given for
-        each loss, so that fits with different losses can be compared.
-    loss
-        What was made least.
-    points
-        Number of rows used.
+    Attributes:
+        young_modulus: E, Pa: the value held, or the fitted one.
+        fractional_power: n, dimensionless.
+        rms_stress: Root mean square of measured minus fitted stress over the rows used, Pa. It is
+            given for each loss, so that fits with different losses can be compared.
+        loss: What was made least.
+        points: Number of rows used.
     """
 
     young_modulus: float
@@ -50,27 +44,18 @@ def stress(strain: Value, young_modulus: float, fractional_power: float) -> Valu
     exist, we take ``-E |strain|**n``, so that a law used in a swinging system pulls back evenly
     from both sides.
 
-    Parameters
-    ----------
-    strain
-        Engineering strain, dimensionless, any shape.
-    young_modulus
-        E, Pa, > 0. For n other than 1 it is the stress at strain 1, not the slope at the origin.
-    fractional_power
-        n, dimensionless, > 0. With n = 1 the law is Hooke's.
+    Args:
+        strain: Engineering strain, dimensionless, any shape.
+        young_modulus: E, Pa, > 0. For n other than 1 it is the stress at strain 1, not the slope at
+            the origin.
+        fractional_power: n, dimensionless, > 0. With n = 1 the law is Hooke's.
 
-    Returns
-    -------
-    float or ndarray
-        Engineering stress, Pa, shape of `strain`.
+    Returns:
+        float or ndarray: Engineering stress, Pa, shape of `strain`.
 
-    Raises
-    ------
-    InvalidInputError
-        If a parameter is not a finite number above zero.
+    Raises:
+        InvalidInputError: If a parameter is not a finite number above zero.
 
-    Examples
-    --------
     >>> float(stress(2.0, 1e5, 1.5).round()), float(stress(-2.0, 1e5, 1.5).round())
     (282843.0, -282843.0)
     """
@@ -92,26 +77,17 @@ def fit(
     the logarithms; or, for "strain", of ``strain - (stress / E)**m`` with ``n = 1 / m``, the curve
     read with its axes exchanged. The first weighs the end of the curve most, the second its start.
 
-    Parameters
-    ----------
-    strain
-        Engineering strain, shape (N,), >= 0.
-    stress
-        Engineering stress, shape (N,), Pa. Rows where strain or stress is not above zero are left
-        out by the losses "log" and "strain", which cannot use them.
-    young_modulus
-        E to hold, Pa, > 0; None to fit it together with n.
-    loss
-        "stress", "log" or "strain".
+    Args:
+        strain: Engineering strain, shape (N,), >= 0.
+        stress: Engineering stress, shape (N,), Pa. Rows where strain or stress is not above zero
+            are left out by the losses "log" and "strain", which cannot use them.
+        young_modulus: E to hold, Pa, > 0; None to fit it together with n.
+        loss: "stress", "log" or "strain".
 
-    Raises
-    ------
-    InvalidInputError
-        If the curve has fewer than 3 usable rows, is not finite, or has negative strains; if the
-        loss is unknown; or if the best exponent is outside `EXPONENT_RANGE`.
+    Raises:
+        InvalidInputError: If the curve has fewer than 3 usable rows, is not finite, or has negative
+            strains; if the loss is unknown; or if the best exponent is outside `EXPONENT_RANGE`.
 
-    Examples
-    --------
     >>> e = np.linspace(0, 3, 50)
     >>> found = fit(e, 1e5 * e**1.6, loss="strain")
     >>> round(found.young_modulus), round(found.fractional_power, 6)
@@ -144,24 +120,16 @@ def fit_power(x: Floats, y: Floats, *, free: bool) -> tuple[float, float]:
 
     The factor is linear: for each p the best c is known, which leaves one bounded search over p.
 
-    Parameters
-    ----------
-    x, y
-        Shape (N,), dimensionless. x >= 0 with some value above zero.
-    free
-        Whether to fit c; else c = 1.
+    Args:
+        x, y: Shape (N,), dimensionless. x >= 0 with some value above zero.
+        free: Whether to fit c; else c = 1.
 
-    Returns
-    -------
-    c, p : float
+    Returns:
+        c and p.
 
-    Raises
-    ------
-    InvalidInputError
-        If the best p is not inside `EXPONENT_RANGE`.
+    Raises:
+        InvalidInputError: If the best p is not inside `EXPONENT_RANGE`.
 
-    Examples
-    --------
     >>> x = np.array([0.5, 1.0, 2.0])
     >>> c, p = fit_power(x, 3 * x**2, free=True)
     >>> round(c, 6), round(p, 6)
@@ -181,24 +149,16 @@ def fit_power(x: Floats, y: Floats, *, free: bool) -> tuple[float, float]:
 def fit_line(x: Floats, y: Floats, *, free: bool) -> tuple[float, float]:
     """Fit ``log y = log c + p log x`` by least squares of log y.
 
-    Parameters
-    ----------
-    x, y
-        Shape (N,), dimensionless, > 0; x not all equal.
-    free
-        Whether to fit c; else c = 1.
+    Args:
+        x, y: Shape (N,), dimensionless, > 0; x not all equal.
+        free: Whether to fit c; else c = 1.
 
-    Returns
-    -------
-    c, p : float
+    Returns:
+        c and p.
 
-    Raises
-    ------
-    InvalidInputError
-        If the best p is not inside `EXPONENT_RANGE`.
+    Raises:
+        InvalidInputError: If the best p is not inside `EXPONENT_RANGE`.
 
-    Examples
-    --------
     >>> x = np.array([0.5, 1.0, 2.0])
     >>> c, p = fit_line(x, 3 * x**2, free=True)
     >>> round(c, 6), round(p, 6)
@@ -220,22 +180,15 @@ def fit_line(x: Floats, y: Floats, *, free: bool) -> tuple[float, float]:
 def least(misfit: Callable[[float], float], scan: Floats, *, name: str) -> float:
     """Return where `misfit` is least: scan it, refine every valley, keep the deepest.
 
-    Parameters
-    ----------
-    misfit
-        Function to make least.
-    scan
-        Rising parameter values, shape (N,), so dense that each valley spans three of them.
-    name
-        What the parameter is called in the error.
+    Args:
+        misfit: Function to make least.
+        scan: Rising parameter values, shape (N,), so dense that each valley spans three of them.
+        name: What the parameter is called in the error.
 
-    Raises
-    ------
-    InvalidInputError
-        If the least value is at an end of the scan: the data do not fix the parameter within it.
+    Raises:
+        InvalidInputError: If the least value is at an end of the scan: the data do not fix the
+            parameter within it.
 
-    Examples
-    --------
     >>> round(least(lambda x: (x - 0.3) ** 2, np.linspace(0, 1, 11), name="x"), 6)
     0.3
     """

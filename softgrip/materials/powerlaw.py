@@ -25,27 +25,18 @@ PROPERTIES = ("young_modulus", "mixed_viscosity", "tensile_strength")
 def predictors(E: ArrayLike, MV: ArrayLike, TS: ArrayLike) -> Floats:
     """Return the predictors, Eq. (5.7): E, the root of MV and the root of TS, made dimensionless.
 
-    Parameters
-    ----------
-    E
-        Young's modulus, Pa, >= 0, shape (m,) or a float.
-    MV
-        Mixed viscosity, Pa s, >= 0, same shape.
-    TS
-        Tensile strength, Pa, >= 0, same shape.
+    Args:
+        E: Young's modulus, Pa, >= 0, shape (m,) or a float.
+        MV: Mixed viscosity, Pa s, >= 0, same shape.
+        TS: Tensile strength, Pa, >= 0, same shape.
 
-    Returns
-    -------
-    ndarray
-        E / 1 MPa, (MV / 50 Pa s)**0.5 and (TS / 10 MPa)**0.5, shape (m, 3), or (3,) from floats.
+    Returns:
+        ndarray: E / 1 MPa, (MV / 50 Pa s)**0.5 and (TS / 10 MPa)**0.5, shape (m, 3), or (3,) from
+            floats.
 
-    Raises
-    ------
-    InvalidInputError
-        If a value is negative or not finite.
+    Raises:
+        InvalidInputError: If a value is negative or not finite.
 
-    Examples
-    --------
     >>> predictors(0.5e6, 12.5, 2.5e6).tolist()
     [0.5, 0.5, 0.5]
     """
@@ -56,30 +47,20 @@ def predictors(E: ArrayLike, MV: ArrayLike, TS: ArrayLike) -> Floats:
 class FractionalPowerRegressor(RegressorMixin, BaseEstimator):  # type: ignore[misc]  # untyped base
     """Least squares for the fractional power, as a scikit-learn regressor.
 
-    Parameters
-    ----------
-    exponents
-        Power of each column of X, or one for all. The default is Eq. (5.7).
-    scales
-        Unit of each column of X, or one for all, > 0. The default is Eq. (5.7) for columns in SI.
-    fit_intercept
-        Whether to add a constant, which Eq. (5.8) does not have.
+    Args:
+        exponents: Power of each column of X, or one for all. The default is Eq. (5.7).
+        scales: Unit of each column of X, or one for all, > 0. The default is Eq. (5.7) for columns
+            in SI.
+        fit_intercept: Whether to add a constant, which Eq. (5.8) does not have.
 
-    Attributes
-    ----------
-    coef_ : ndarray of shape (p,)
-        The x of Eq. (5.6).
-    intercept_ : float
-        The constant, 0 when not fitted.
+    Attributes:
+        coef_ (ndarray of shape (p,)): The x of Eq. (5.6).
+        intercept_ (float): The constant, 0 when not fitted.
 
-    Notes
-    -----
     `fit` and `predict` take X of shape (m, 3) with columns E [Pa], MV [Pa s], TS [Pa], all >= 0,
     and raise InvalidInputError, a ValueError, for negative values. Eq. (5.8) is an empirical rule:
     outside the materials that it was fitted to it has no ground.
 
-    Examples
-    --------
     >>> X = [[1e6, 0, 0], [0, 50, 0], [0, 0, 10e6], [1e6, 50, 10e6]]
     >>> FractionalPowerRegressor().fit(X, [1, 2, 3, 6]).coef_.round(9).tolist()
     [1.0, 2.0, 3.0]
@@ -136,23 +117,18 @@ def predict_power(
 ) -> PowerOfNewMaterial:
     """Predict n by the power law fitted to all ten materials of Table 5.1.
 
-    Parameters
-    ----------
-    young_modulus, mixed_viscosity, tensile_strength
-        E [Pa], MV [Pa s], TS [Pa] from the data sheet, each > 0. The table's E is the stress at
-        100 % strain, which suppliers call the 100 % modulus.
-    fit_intercept
-        Whether to add the constant that Eq. (5.8) does not have.
-    confidence
-        Of the interval for the n that a fit to a tensile test of the material would give.
+    Args:
+        young_modulus, mixed_viscosity, tensile_strength: E [Pa], MV [Pa s], TS [Pa] from the data
+            sheet, each > 0. The table's E is the stress at 100 % strain, which suppliers call the
+            100 % modulus.
+        fit_intercept: Whether to add the constant that Eq. (5.8) does not have.
+        confidence: Of the interval for the n that a fit to a tensile test of the material would
+            give.
 
-    Raises
-    ------
-    InvalidInputError
-        If a property is not a finite number above zero, or `confidence` is not in (0, 1).
+    Raises:
+        InvalidInputError: If a property is not a finite number above zero, or `confidence` is not
+            in (0, 1).
 
-    Examples
-    --------
     >>> found = predict_power(0.34e6, 20, 3.79e6)
     >>> round(found.power.value, 2), found.extrapolates
     (2.37, ())

@@ -20,18 +20,12 @@ HELD_OUT = ("Dragon Skin 20", "Dragon Skin FX Pro")
 class Material:
     """One row of Table 5.1, in SI.
 
-    Attributes
-    ----------
-    name
-        Trade name.
-    fractional_power
-        Exponent n of Ludwick's law, Eq. (5.2), dimensionless.
-    young_modulus
-        E, Pa.
-    mixed_viscosity
-        MV of the liquid before it cures, Pa s.
-    tensile_strength
-        TS, Pa.
+    Attributes:
+        name: Trade name.
+        fractional_power: Exponent n of Ludwick's law, Eq. (5.2), dimensionless.
+        young_modulus: E, Pa.
+        mixed_viscosity: MV of the liquid before it cures, Pa s.
+        tensile_strength: TS, Pa.
     """
 
     name: str
@@ -45,8 +39,6 @@ class Material:
 def table_5_1() -> Mapping[str, Material]:
     """Read Table 5.1: a read-only mapping from name to material, in the printed order.
 
-    Examples
-    --------
     >>> table_5_1()["Ecoflex 00-30"].young_modulus
     70000.0
     """
@@ -66,10 +58,8 @@ def table_5_1() -> Mapping[str, Material]:
 def material(name: str) -> Material:
     """Return the material of this name.
 
-    Raises
-    ------
-    UnknownNameError
-        If Table 5.1 has no such row; the message lists those it has.
+    Raises:
+        UnknownNameError: If Table 5.1 has no such row; the message lists those it has.
     """
     table = table_5_1()
     if name not in table:
@@ -80,8 +70,6 @@ def material(name: str) -> Material:
 def properties(materials: Iterable[Material]) -> Floats:
     """Return E [Pa], MV [Pa s] and TS [Pa] of n materials, shape (n, 3).
 
-    Examples
-    --------
     >>> properties([material("Ecoflex 00-30")]).tolist()
     [[70000.0, 3.0, 1380000.0]]
     """

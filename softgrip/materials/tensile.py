@@ -34,15 +34,13 @@ FEWEST_ROWS = 10
 class TensileTest:
     """A pull to failure; its arrays cannot be written to.
 
-    Attributes
-    ----------
-    name
-        Material.
-    strain, stress
-        Engineering strain, and engineering stress in Pa, shape (N,). Strain rises from row to row
-        and is that of the crosshead. The first stresses can lie just below zero.
-    true_strain, true_stress
-        The same on the deformed length and area as the database gives them, shape (N,); Pa.
+    Attributes:
+        name: Material.
+        strain, stress: Engineering strain, and engineering stress in Pa, shape (N,). Strain rises
+            from row to row and is that of the crosshead. The first stresses can lie just below
+            zero.
+        true_strain, true_stress: The same on the deformed length and area as the database gives
+            them, shape (N,); Pa.
     """
 
     name: str
@@ -62,10 +60,9 @@ class TensileTest:
 def load(name: str) -> TensileTest:
     """Read the tensile test of a material of Table 5.1.
 
-    Raises
-    ------
-    UnknownNameError, DataUnavailableError, DataFileError
-        As `softgrip.materials.database.locate` and `parse` do.
+    Raises:
+        UnknownNameError, DataUnavailableError, DataFileError: As
+            `softgrip.materials.database.locate` and `parse` do.
     """
     return replace(parse(locate(name)), name=name)
 
@@ -73,10 +70,8 @@ def load(name: str) -> TensileTest:
 def parse(path: Path) -> TensileTest:
     """Read one file of the database; the test takes the file's name.
 
-    Raises
-    ------
-    DataFileError
-        If the file is not as `read_rows` expects it.
+    Raises:
+        DataFileError: If the file is not as `read_rows` expects it.
     """
     _, true_strain, true_stress, strain, stress = read_rows(path).T
     return TensileTest(path.stem, strain, stress * MPa, true_strain, true_stress * MPa)
@@ -97,10 +92,8 @@ def up_to_peak(test: TensileTest) -> TensileTest:
 def hundred_percent_modulus(test: TensileTest) -> float:
     """Return the engineering stress at strain 1 in Pa, interpolated between rows.
 
-    Raises
-    ------
-    InvalidInputError
-        If the test does not reach from below to above strain 1.
+    Raises:
+        InvalidInputError: If the test does not reach from below to above strain 1.
     """
     low, high = float(test.strain[0]), float(test.strain[-1])
     if not low <= 1 <= high:
@@ -117,10 +110,8 @@ def read_rows(path: Path) -> Floats:
     by semicolons, decimals by points, and the last row ends with a line end. Engineering strain
     rises from row to row.
 
-    Raises
-    ------
-    DataFileError
-        If the file does not hold this; names the line and what was expected there.
+    Raises:
+        DataFileError: If the file does not hold this; names the line and what was expected there.
     """
     lines = _lines(path)
     cells = [[cell.strip() for cell in line.split(";")] for line in lines]

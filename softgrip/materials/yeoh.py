@@ -13,12 +13,9 @@ from softgrip.arrays import Value, check_stretch, tensile_curve
 class YeohFit:
     """Yeoh's law fitted to a tensile test.
 
-    Attributes
-    ----------
-    coefficients
-        C_1, C_2, C_3, Pa.
-    rms_stress
-        Root mean square of measured minus fitted stress, Pa.
+    Attributes:
+        coefficients: C_1, C_2, C_3, Pa.
+        rms_stress: Root mean square of measured minus fitted stress, Pa.
     """
 
     coefficients: tuple[float, ...]
@@ -28,25 +25,17 @@ class YeohFit:
 def stress(stretch: Value, coefficients: Sequence[float]) -> Value:
     """Return the engineering stress that follows from the energy ``sum C_i (I1 - 3)**i``.
 
-    Parameters
-    ----------
-    stretch
-        Length over first length, 1 + strain, > 0, any shape.
-    coefficients
-        C_i, Pa, usually three. One alone is the neo-Hookean law with shear modulus 2 C_1.
+    Args:
+        stretch: Length over first length, 1 + strain, > 0, any shape.
+        coefficients: C_i, Pa, usually three. One alone is the neo-Hookean law with shear modulus 2
+            C_1.
 
-    Returns
-    -------
-    float or ndarray
-        Engineering stress, Pa, shape of `stretch`.
+    Returns:
+        float or ndarray: Engineering stress, Pa, shape of `stretch`.
 
-    Raises
-    ------
-    InvalidInputError
-        If a stretch is not above zero.
+    Raises:
+        InvalidInputError: If a stretch is not above zero.
 
-    Examples
-    --------
     >>> stress(2.0, (1e5,))
     350000.0
     """
@@ -63,20 +52,13 @@ def fit(strain: ArrayLike, engineering_stress: ArrayLike) -> YeohFit:
 
     Nothing keeps a coefficient from being negative, so the law holds for the strains fitted only.
 
-    Parameters
-    ----------
-    strain
-        Engineering strain, shape (N,), >= 0, N >= 4.
-    engineering_stress
-        Shape (N,), Pa.
+    Args:
+        strain: Engineering strain, shape (N,), >= 0, N >= 4.
+        engineering_stress: Shape (N,), Pa.
 
-    Raises
-    ------
-    InvalidInputError
-        If the curve is too short, is not finite or has negative strains.
+    Raises:
+        InvalidInputError: If the curve is too short, is not finite or has negative strains.
 
-    Examples
-    --------
     >>> e = np.linspace(0, 3, 20)
     >>> fit(e, stress(1 + e, (3e4, 2e2, 1.0))).coefficients[0].__round__(3)
     30000.0

@@ -15,18 +15,12 @@ from softgrip.pump.elastance import ElastanceModel, elastance_filter, transition
 class CapacityEstimate:
     """What the filter holds after each of N measurements; the arrays cannot be written to.
 
-    Attributes
-    ----------
-    time
-        s, from 0, shape (N,).
-    state
-        Pressure, Pa, and elastance, Pa/m^3, shape (N, 2).
-    covariance
-        Of the state, shape (N, 2, 2).
-    innovation
-        Measured minus predicted pressure, Pa, shape (N,).
-    innovation_variance
-        What the filter expects of its square, Pa^2, shape (N,).
+    Attributes:
+        time: s, from 0, shape (N,).
+        state: Pressure, Pa, and elastance, Pa/m^3, shape (N, 2).
+        covariance: Of the state, shape (N, 2, 2).
+        innovation: Measured minus predicted pressure, Pa, shape (N,).
+        innovation_variance: What the filter expects of its square, Pa^2, shape (N,).
     """
 
     time: Floats
@@ -86,25 +80,18 @@ def estimate(
     that went by; what is missing has no part in the likelihood. (filterpy's `update(None)` would
     count as a perfect measurement.)
 
-    Parameters
-    ----------
-    pressure
-        Measured, Pa, shape (N,), N >= 2.
-    flow
-        Commanded, m^3/s, shape (N,); ``flow[k]`` holds from sample k to k + 1, so the last is not
-        used. Its sign is that of Eq. (4.2): above zero the plunger goes in.
-    angle
-        Measured bending angle, rad, shape (N,).
-    model
-        Time step, noise levels, prior and angle gain.
-    steps
-        Time from each sample to the next in time steps of the model, > 0: a number or shape
-        (N - 1,). At 2 a sample is missing between two. The flow holds, and the angle turns evenly.
+    Args:
+        pressure: Measured, Pa, shape (N,), N >= 2.
+        flow: Commanded, m^3/s, shape (N,); ``flow[k]`` holds from sample k to k + 1, so the last is
+            not used. Its sign is that of Eq. (4.2): above zero the plunger goes in.
+        angle: Measured bending angle, rad, shape (N,).
+        model: Time step, noise levels, prior and angle gain.
+        steps: Time from each sample to the next in time steps of the model, > 0: a number or shape
+            (N - 1,). At 2 a sample is missing between two. The flow holds, and the angle turns
+            evenly.
 
-    Raises
-    ------
-    InvalidInputError
-        If the shapes differ, a value is not finite, or a step is not above zero.
+    Raises:
+        InvalidInputError: If the shapes differ, a value is not finite, or a step is not above zero.
     """
     measured, pushed, bent = record(at_least=2, pressure=pressure, flow=flow, angle=angle)
     kalman = elastance_filter(model)

@@ -31,14 +31,10 @@ from softgrip.checks import check_finite, check_not_negative
 class NoiseLevels:
     """Standard deviations of the filter's three noises.
 
-    Attributes
-    ----------
-    pressure_step
-        Of w, what the model misses of the pressure in one sample, Pa, >= 0.
-    elastance_step
-        Of w', the wander of the elastance in one sample, Pa/m^3, >= 0.
-    sensor
-        Of v, the pressure sensor's, Pa, > 0.
+    Attributes:
+        pressure_step: Of w, what the model misses of the pressure in one sample, Pa, >= 0.
+        elastance_step: Of w', the wander of the elastance in one sample, Pa/m^3, >= 0.
+        sensor: Of v, the pressure sensor's, Pa, > 0.
     """
 
     pressure_step: float
@@ -54,12 +50,10 @@ class NoiseLevels:
 class Prior:
     """What is known before the first sample: means and standard deviations.
 
-    Attributes
-    ----------
-    pressure, pressure_std
-        Pa; gauge or absolute, as the sensor reads.
-    elastance, elastance_std
-        1/C, Pa/m^3, > 0: absolute pressure over gas volume, `1 / gas.capacity`.
+    Attributes:
+        pressure, pressure_std: Pa; gauge or absolute, as the sensor reads.
+        elastance, elastance_std: 1/C, Pa/m^3, > 0: absolute pressure over gas volume, `1 /
+            gas.capacity`.
     """
 
     pressure: float
@@ -80,17 +74,13 @@ class Prior:
 class ElastanceModel:
     """All that the filter must be told.
 
-    Attributes
-    ----------
-    time_step
-        dt, s, > 0.
-    noise
-        Noise levels; `noise.estimate_noise` finds them from a record.
-    prior
-        The state before the first sample.
-    angle_gain
-        g, Pa/m^3 a radian: for a capacity that goes from C_0 to C_1 while the finger bends by
-        theta, ``(1/C_1 - 1/C_0) / theta``. With 0 the filter follows the pressure alone.
+    Attributes:
+        time_step: dt, s, > 0.
+        noise: Noise levels; `noise.estimate_noise` finds them from a record.
+        prior: The state before the first sample.
+        angle_gain: g, Pa/m^3 a radian: for a capacity that goes from C_0 to C_1 while the finger
+            bends by theta, ``(1/C_1 - 1/C_0) / theta``. With 0 the filter follows the pressure
+            alone.
     """
 
     time_step: float
@@ -106,20 +96,13 @@ class ElastanceModel:
 def transitions(flow: ArrayLike, time_step: float) -> Floats:
     """Return the transition of [P, S] for each flow: ``[[1, Q dt], [0, 1]]``.
 
-    Parameters
-    ----------
-    flow
-        Q, m^3/s, shape (K,).
-    time_step
-        dt, s, > 0.
+    Args:
+        flow: Q, m^3/s, shape (K,).
+        time_step: dt, s, > 0.
 
-    Returns
-    -------
-    ndarray
-        Shape (K, 2, 2).
+    Returns:
+        ndarray: Shape (K, 2, 2).
 
-    Examples
-    --------
     >>> transitions([2.0], 0.5).tolist()
     [[[1.0, 1.0], [0.0, 1.0]]]
     """
@@ -134,14 +117,11 @@ def transitions(flow: ArrayLike, time_step: float) -> Floats:
 def elastance_filter(model: ElastanceModel) -> KalmanFilter:
     """Set up the filter at its prior, before the first measurement.
 
-    Returns
-    -------
-    filterpy.kalman.KalmanFilter
-        State [P, S], a column (2, 1); input the change of the angle, a column (1, 1). The
-        transition changes from sample to sample: give `predict` one of `transitions`.
+    Returns:
+        filterpy.kalman.KalmanFilter: State [P, S], a column (2, 1); input the change of the angle,
+            a column (1, 1). The transition changes from sample to sample: give `predict` one of
+            `transitions`.
 
-    Examples
-    --------
     >>> noise = NoiseLevels(pressure_step=10.0, elastance_step=1e7, sensor=100.0)
     >>> prior = Prior(pressure=0.0, pressure_std=100.0, elastance=1e9, elastance_std=2e8)
     >>> kalman = elastance_filter(ElastanceModel(0.025, noise, prior))

@@ -16,16 +16,12 @@ from softgrip.pump.gas import ATMOSPHERE
 class Finger:
     """What is to be driven.
 
-    Attributes
-    ----------
-    gauge_pressure
-        Wanted, Pa above atmosphere, > 0.
-    volume_at_rest, volume_at_pressure
-        Of the finger's chambers (all fingers on the pump), m^3, > 0; the second is not smaller.
-    dead_volume
-        Of tube and fittings, m^3, >= 0.
-    rise_time
-        From rest to the pressure, s, > 0.
+    Attributes:
+        gauge_pressure: Wanted, Pa above atmosphere, > 0.
+        volume_at_rest, volume_at_pressure: Of the finger's chambers (all fingers on the pump), m^3,
+            > 0; the second is not smaller.
+        dead_volume: Of tube and fittings, m^3, >= 0.
+        rise_time: From rest to the pressure, s, > 0.
     """
 
     gauge_pressure: float
@@ -54,22 +50,14 @@ def swept_volume(finger: Finger, start_volume: float, atmosphere: float = ATMOSP
 
     ``P_0 (V_s + V_rest + V_dead) = P_1 (V_s - s + V_pressure + V_dead)`` is solved for s.
 
-    Parameters
-    ----------
-    finger
-        The finger and its pressure.
-    start_volume
-        V_s, gas in the syringe before the push, m^3, > 0.
-    atmosphere
-        P_0, Pa, > 0.
+    Args:
+        finger: The finger and its pressure.
+        start_volume: V_s, gas in the syringe before the push, m^3, > 0.
+        atmosphere: P_0, Pa, > 0.
 
-    Returns
-    -------
-    float
-        s, m^3. Above `start_volume` if the syringe does not hold enough.
+    Returns:
+        float: s, m^3. Above `start_volume` if the syringe does not hold enough.
 
-    Examples
-    --------
     >>> finger = Finger(101325.0, 20e-6, 20e-6, 0.0, 1.0)  # double the pressure: half the volume
     >>> round(swept_volume(finger, 60e-6) * 1e6, 6)
     40.0
@@ -86,8 +74,6 @@ def least_start_volume(finger: Finger, atmosphere: float = ATMOSPHERE) -> float:
     ``P_1 (V_pressure + V_dead) / P_0 - V_rest - V_dead``. No smaller syringe will do; a larger one
     that starts with no more than this has the shortest way to push, since less gas is compressed.
 
-    Examples
-    --------
     >>> round(least_start_volume(Finger(101325.0, 20e-6, 20e-6, 0.0, 1.0)) * 1e6, 6)
     20.0
     """

@@ -14,12 +14,9 @@ from softgrip.units import REV
 class Pump:
     """A syringe on a screw.
 
-    Attributes
-    ----------
-    area
-        Inside cross-section A of the syringe, m^2, > 0.
-    lead
-        Travel l of the slider in one turn of the screw, m, > 0.
+    Attributes:
+        area: Inside cross-section A of the syringe, m^2, > 0.
+        lead: Travel l of the slider in one turn of the screw, m, > 0.
     """
 
     area: float
@@ -38,12 +35,9 @@ class Pump:
 class PumpRun:
     """A pump driven at one motor speed.
 
-    Attributes
-    ----------
-    pump
-        The pump.
-    motor_speed
-        omega_m, rad/s; below zero the plunger is pulled.
+    Attributes:
+        pump: The pump.
+        motor_speed: omega_m, rad/s; below zero the plunger is pulled.
     """
 
     pump: Pump
@@ -58,20 +52,13 @@ class PumpRun:
 def slider_speed(motor_speed: Value, lead: float) -> Value:
     """Return the speed of the slider, Eq. (4.1): ``l omega_m / (2 pi)``.
 
-    Parameters
-    ----------
-    motor_speed
-        omega_m, rad/s, any shape.
-    lead
-        l, m, > 0.
+    Args:
+        motor_speed: omega_m, rad/s, any shape.
+        lead: l, m, > 0.
 
-    Returns
-    -------
-    float or ndarray
-        v_s, m/s, shape of `motor_speed`.
+    Returns:
+        float or ndarray: v_s, m/s, shape of `motor_speed`.
 
-    Examples
-    --------
     >>> round(slider_speed(1.65 * REV, 0.008), 6)
     0.0132
     """
@@ -86,20 +73,13 @@ def flow(motor_speed: Value, pump: Pump) -> Value:
     It is the volume that the plunger sweeps, at the pressure in the syringe; not a flow at
     standard conditions.
 
-    Parameters
-    ----------
-    motor_speed
-        omega_m, rad/s, any shape.
-    pump
-        The pump.
+    Args:
+        motor_speed: omega_m, rad/s, any shape.
+        pump: The pump.
 
-    Returns
-    -------
-    float or ndarray
-        Q_i, m^3/s, shape of `motor_speed`.
+    Returns:
+        float or ndarray: Q_i, m^3/s, shape of `motor_speed`.
 
-    Examples
-    --------
     >>> round(flow(1.65 * REV, Pump(area=6.61e-4, lead=0.008)) * 1e6, 4)  # mL/s
     8.7252
     """
@@ -132,13 +112,9 @@ PARAMETER_SETS: Mapping[str, PumpRun] = MappingProxyType(
 def parameter_set(name: str) -> PumpRun:
     """Return a set of Section 4.2 by its name in `PARAMETER_SETS`.
 
-    Raises
-    ------
-    UnknownNameError
-        If there is no such set; the message lists those that are.
+    Raises:
+        UnknownNameError: If there is no such set; the message lists those that are.
 
-    Examples
-    --------
     >>> parameter_set("optimal").pump
     Pump(area=0.001662, lead=0.008)
     """

@@ -38,22 +38,14 @@ ATMOSPHERE = 101325.0
 def gas_pressure(amount: Value, volume: Value, temperature: float = 293.15) -> Value:
     """Return the pressure of an ideal gas, Eq. (4.4): ``n R T / V``.
 
-    Parameters
-    ----------
-    amount
-        n, mol, > 0, any shape.
-    volume
-        V, m^3, > 0, shape that broadcasts with `amount`.
-    temperature
-        T, K, > 0.
+    Args:
+        amount: n, mol, > 0, any shape.
+        volume: V, m^3, > 0, shape that broadcasts with `amount`.
+        temperature: T, K, > 0.
 
-    Returns
-    -------
-    float or ndarray
-        Absolute pressure, Pa.
+    Returns:
+        float or ndarray: Absolute pressure, Pa.
 
-    Examples
-    --------
     >>> round(gas_pressure(1.0, 0.0224139695, 273.15))
     101325
     """
@@ -65,22 +57,14 @@ def gas_pressure(amount: Value, volume: Value, temperature: float = 293.15) -> V
 def capacity(pressure: Value, gas_volume: Value, compliance: float = 0.0) -> Value:
     """Return the capacity C that the gas has at one state: ``(V + P dV_f/dP) / P``.
 
-    Parameters
-    ----------
-    pressure
-        Absolute pressure P, Pa, > 0, any shape.
-    gas_volume
-        Volume V of all the gas at that pressure, m^3, > 0.
-    compliance
-        dV_f/dP of the finger at that pressure, m^3/Pa, >= 0; 0 for a rigid chamber.
+    Args:
+        pressure: Absolute pressure P, Pa, > 0, any shape.
+        gas_volume: Volume V of all the gas at that pressure, m^3, > 0.
+        compliance: dV_f/dP of the finger at that pressure, m^3/Pa, >= 0; 0 for a rigid chamber.
 
-    Returns
-    -------
-    float or ndarray
-        C, m^3/Pa.
+    Returns:
+        float or ndarray: C, m^3/Pa.
 
-    Examples
-    --------
     >>> capacity(1e5, 1e-4)  # 100 mL of air at 1 bar
     1e-09
     """
@@ -98,20 +82,14 @@ def capacity_growth(
     With dP/d(Qt) = 1/C, ``c = (d2V_f/dP2 - 2 V/P^2) / C``, of unit 1/Pa. So the bounds 0 and 1
     that the text sets on c have no meaning in SI; times the pressure, c is a pure number.
 
-    Parameters
-    ----------
-    pressure, gas_volume, compliance
-        As for `capacity`.
-    compliance_slope
-        d2V_f/dP2 of the finger, m^3/Pa^2; above zero if the finger softens as it fills.
+    Args:
+        pressure, gas_volume, compliance: As for `capacity`.
+        compliance_slope: d2V_f/dP2 of the finger, m^3/Pa^2; above zero if the finger softens as it
+            fills.
 
-    Returns
-    -------
-    float or ndarray
-        c, 1/Pa.
+    Returns:
+        float or ndarray: c, 1/Pa.
 
-    Examples
-    --------
     >>> round(capacity_growth(1e5, 1e-4), 12)  # a rigid chamber: -2/P
     -2e-05
     """
@@ -125,24 +103,15 @@ def charge_pressure(charge: Any, volume: Value, compliance: float, rest_pressure
 
     It solves ``P (V + K (P - P_0)) = n R T`` for P.
 
-    Parameters
-    ----------
-    charge
-        n R T, J, > 0: constant for a closed gas at one temperature. Any shape.
-    volume
-        V at P_0, m^3, > 0, shape that broadcasts with `charge`.
-    compliance
-        K = dV_f/dP, m^3/Pa, >= 0; 0 for a rigid chamber.
-    rest_pressure
-        P_0, absolute, Pa.
+    Args:
+        charge: n R T, J, > 0: constant for a closed gas at one temperature. Any shape.
+        volume: V at P_0, m^3, > 0, shape that broadcasts with `charge`.
+        compliance: K = dV_f/dP, m^3/Pa, >= 0; 0 for a rigid chamber.
+        rest_pressure: P_0, absolute, Pa.
 
-    Returns
-    -------
-    float or ndarray
-        Absolute pressure, Pa.
+    Returns:
+        float or ndarray: Absolute pressure, Pa.
 
-    Examples
-    --------
     >>> charge_pressure(10.0, 1e-4, 0.0, ATMOSPHERE)
     100000.0
     """
@@ -163,29 +132,19 @@ def closed_volume_pressure(
 
     ``P (V_0 - s + K (P - P_0)) = P_0 V_0`` is solved for P, with a finger of constant compliance K.
 
-    Parameters
-    ----------
-    swept_volume
-        Volume s that the plunger has swept, m^3, < `gas_volume`; below zero if pulled. Any shape.
-    gas_volume
-        Volume V_0 of all the gas, syringe included, before the push, m^3, > 0.
-    compliance
-        K = dV_f/dP, m^3/Pa, >= 0; 0 for a rigid chamber.
-    start_pressure
-        P_0, absolute, Pa, > 0.
+    Args:
+        swept_volume: Volume s that the plunger has swept, m^3, < `gas_volume`; below zero if
+            pulled. Any shape.
+        gas_volume: Volume V_0 of all the gas, syringe included, before the push, m^3, > 0.
+        compliance: K = dV_f/dP, m^3/Pa, >= 0; 0 for a rigid chamber.
+        start_pressure: P_0, absolute, Pa, > 0.
 
-    Returns
-    -------
-    float or ndarray
-        Absolute pressure, Pa, shape of `swept_volume`.
+    Returns:
+        float or ndarray: Absolute pressure, Pa, shape of `swept_volume`.
 
-    Raises
-    ------
-    InvalidInputError
-        If the swept volume leaves no gas, or a parameter is out of range.
+    Raises:
+        InvalidInputError: If the swept volume leaves no gas, or a parameter is out of range.
 
-    Examples
-    --------
     >>> closed_volume_pressure(50e-6, 100e-6, start_pressure=1e5)  # half the volume, twice P
     200000.0
     """

@@ -24,19 +24,14 @@ FLAT = 0.05
 class NoiseEstimate:
     """Noise levels that make a record most likely.
 
-    Attributes
-    ----------
-    levels
-        The levels.
-    log_std
-        Standard deviation of the logarithm of each level, in the order of `NAMES`, from the
-        curvature of the likelihood; infinite where the record does not tell the level from zero.
-    angle_gain
-        g of `ElastanceModel`, Pa/m^3 a radian: the one given, or the fitted one.
-    angle_gain_std
-        Its standard deviation; 0 if it was given.
-    log_likelihood
-        At the levels found.
+    Attributes:
+        levels: The levels.
+        log_std: Standard deviation of the logarithm of each level, in the order of `NAMES`, from
+            the curvature of the likelihood; infinite where the record does not tell the level from
+            zero.
+        angle_gain: g of `ElastanceModel`, Pa/m^3 a radian: the one given, or the fitted one.
+        angle_gain_std: Its standard deviation; 0 if it was given.
+        log_likelihood: At the levels found.
     """
 
     levels: NoiseLevels
@@ -54,17 +49,12 @@ class NoiseEstimate:
 
         Trust it while `log_std` is below a half or so: a level that may be zero has no bell there.
 
-        Parameters
-        ----------
-        name
-            One of `NAMES`.
-        confidence
-            Between 0 and 1, both excluded.
+        Args:
+            name: One of `NAMES`.
+            confidence: Between 0 and 1, both excluded.
 
-        Raises
-        ------
-        InvalidInputError
-            If `name` or `confidence` is not valid.
+        Raises:
+            InvalidInputError: If `name` or `confidence` is not valid.
         """
         if name not in NAMES:
             raise InvalidInputError("name", expected=f"one of {NAMES}", got=name)
@@ -91,22 +81,15 @@ def estimate_noise(
     The record must move the pump, or the elastance leaves no trace. It takes a few seconds for
     some hundred samples.
 
-    Parameters
-    ----------
-    pressure, flow, angle
-        As for `capacity.estimate`; N >= 50.
-    model
-        Its noise levels are the first guess and must be above zero; the rest is held.
-    fit_gain
-        Whether to fit the angle gain too, from that of the model on.
-    steps
-        As for `capacity.estimate`.
+    Args:
+        pressure, flow, angle: As for `capacity.estimate`; N >= 50.
+        model: Its noise levels are the first guess and must be above zero; the rest is held.
+        fit_gain: Whether to fit the angle gain too, from that of the model on.
+        steps: As for `capacity.estimate`.
 
-    Raises
-    ------
-    InvalidInputError
-        If the record is too short or the pump stands still in it, a first guess is zero, or the
-        search ends without a maximum.
+    Raises:
+        InvalidInputError: If the record is too short or the pump stands still in it, a first guess
+            is zero, or the search ends without a maximum.
     """
     start = np.array([getattr(model.noise, name) for name in NAMES])
     if not (start > 0).all():

@@ -10,25 +10,16 @@ from softgrip.errors import InvalidInputError
 def observability_matrix(transitions: ArrayLike, H: ArrayLike) -> Floats:
     """Stack what each sample measures of the first state: ``H, H F_0, H F_1 F_0, ...``.
 
-    Parameters
-    ----------
-    transitions
-        F_k of ``x_{k+1} = F_k x_k``, shape (K, n, n).
-    H
-        Measurement matrix, shape (m, n).
+    Args:
+        transitions: F_k of ``x_{k+1} = F_k x_k``, shape (K, n, n).
+        H: Measurement matrix, shape (m, n).
 
-    Returns
-    -------
-    ndarray
-        Shape ((K + 1) m, n).
+    Returns:
+        ndarray: Shape ((K + 1) m, n).
 
-    Raises
-    ------
-    InvalidInputError
-        If the shapes do not fit.
+    Raises:
+        InvalidInputError: If the shapes do not fit.
 
-    Examples
-    --------
     >>> observability_matrix([[[1, 0.5], [0, 1]]], [[1, 0]]).tolist()
     [[1.0, 0.0], [1.0, 0.5]]
     """
@@ -48,21 +39,14 @@ def observability_matrix(transitions: ArrayLike, H: ArrayLike) -> Floats:
 def observable_rank(transitions: ArrayLike, H: ArrayLike, scale: ArrayLike | None = None) -> int:
     """Count the directions of the state that the measurements tell of.
 
-    Parameters
-    ----------
-    transitions, H
-        As for `observability_matrix`.
-    scale
-        Typical size of each state, shape (n,), > 0; None for ones. Without it, a state of large
-        numbers, whose column is small, can pass for rounding.
+    Args:
+        transitions, H: As for `observability_matrix`.
+        scale: Typical size of each state, shape (n,), > 0; None for ones. Without it, a state of
+            large numbers, whose column is small, can pass for rounding.
 
-    Raises
-    ------
-    InvalidInputError
-        If the shapes do not fit or a scale is not above zero.
+    Raises:
+        InvalidInputError: If the shapes do not fit or a scale is not above zero.
 
-    Examples
-    --------
     >>> observable_rank([[[1, 0.5], [0, 1]]], [[1, 0]])
     2
     """

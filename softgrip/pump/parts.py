@@ -20,16 +20,11 @@ from softgrip.units import ML, REV
 class Syringe:
     """A syringe.
 
-    Attributes
-    ----------
-    name
-        For people.
-    volume
-        m^3, > 0.
-    area
-        Inside cross-section, m^2, > 0.
-    friction
-        Force that the sliding seal takes, N, >= 0; 0 where it was not measured.
+    Attributes:
+        name: For people.
+        volume: m^3, > 0.
+        area: Inside cross-section, m^2, > 0.
+        friction: Force that the sliding seal takes, N, >= 0; 0 where it was not measured.
     """
 
     name: str
@@ -51,14 +46,10 @@ class Syringe:
 class Screw:
     """A screw drive.
 
-    Attributes
-    ----------
-    name
-        For people.
-    lead
-        m a turn, > 0.
-    efficiency
-        Work out over work in, in (0, 1].
+    Attributes:
+        name: For people.
+        lead: m a turn, > 0.
+        efficiency: Work out over work in, in (0, 1].
     """
 
     name: str
@@ -73,8 +64,6 @@ class Screw:
     def force(self, torque: Value) -> Value:
         """Return the thrust that a torque gives, ``2 pi eta T / l``, N for N m.
 
-        Examples
-        --------
         >>> round(Screw("", 0.008, 0.9).force(0.4))
         283
         """
@@ -89,16 +78,11 @@ class Screw:
 class Motor:
     """A stepper motor with its driver: torque falling in a straight line with speed.
 
-    Attributes
-    ----------
-    name
-        For people.
-    holding_torque
-        At standstill, N m, > 0.
-    no_torque_speed
-        Where the line reaches zero, rad/s, > 0.
-    speed_limit
-        Highest speed that the rig allows, rad/s, > 0; infinity for none.
+    Attributes:
+        name: For people.
+        holding_torque: At standstill, N m, > 0.
+        no_torque_speed: Where the line reaches zero, rad/s, > 0.
+        speed_limit: Highest speed that the rig allows, rad/s, > 0; infinity for none.
     """
 
     name: str
@@ -121,8 +105,6 @@ class Motor:
     def speed(self, torque: float) -> float:
         """Return the highest speed that leaves a torque, rad/s, within the limit; 0 if none does.
 
-        Examples
-        --------
         >>> Motor("", holding_torque=0.4, no_torque_speed=60.0).speed(0.1)
         45.0
         """
@@ -138,24 +120,15 @@ def winding_limited_speed(
     There the reactance of the winding, N omega L, takes the whole supply to pass the rated
     current. Beyond it torque falls about as 1/speed, so it errs to the safe side.
 
-    Parameters
-    ----------
-    voltage
-        Supply of the driver, V, > 0.
-    inductance
-        Of a phase, H, > 0.
-    current
-        Rated, of a phase, A, > 0.
-    rotor_teeth
-        N, 50 for a step of 1.8 degrees.
+    Args:
+        voltage: Supply of the driver, V, > 0.
+        inductance: Of a phase, H, > 0.
+        current: Rated, of a phase, A, > 0.
+        rotor_teeth: N, 50 for a step of 1.8 degrees.
 
-    Returns
-    -------
-    float
-        rad/s.
+    Returns:
+        float: rad/s.
 
-    Examples
-    --------
     >>> round(winding_limited_speed(24.0, 3.0e-3, 2.0))  # 12.7 rev/s
     80
     """

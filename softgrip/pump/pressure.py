@@ -16,20 +16,13 @@ from softgrip.pump.flow import Pump
 def pressure_rate(flow: Value, capacity: Value) -> Value:
     """Return the rate of the pressure, Eq. (4.5): ``Q_i / C_i``.
 
-    Parameters
-    ----------
-    flow
-        Q_i, m^3/s, any shape.
-    capacity
-        C_i, m^3/Pa, > 0, shape that broadcasts with `flow`.
+    Args:
+        flow: Q_i, m^3/s, any shape.
+        capacity: C_i, m^3/Pa, > 0, shape that broadcasts with `flow`.
 
-    Returns
-    -------
-    float or ndarray
-        Pa/s.
+    Returns:
+        float or ndarray: Pa/s.
 
-    Examples
-    --------
     >>> round(pressure_rate(8e-6, 1e-9), 6)
     8000.0
     """
@@ -40,24 +33,15 @@ def pressure_rate(flow: Value, capacity: Value) -> Value:
 def pressure(time: Value, flow: float, capacity: float, start_pressure: float = 0.0) -> Value:
     """Return the pressure under a constant flow, the integral of `pressure_rate`.
 
-    Parameters
-    ----------
-    time
-        Since the flow began, s, any shape.
-    flow
-        Q_i, m^3/s.
-    capacity
-        C_i, m^3/Pa, > 0.
-    start_pressure
-        Pressure at time 0, Pa.
+    Args:
+        time: Since the flow began, s, any shape.
+        flow: Q_i, m^3/s.
+        capacity: C_i, m^3/Pa, > 0.
+        start_pressure: Pressure at time 0, Pa.
 
-    Returns
-    -------
-    float or ndarray
-        Pa, shape of `time`.
+    Returns:
+        float or ndarray: Pa, shape of `time`.
 
-    Examples
-    --------
     >>> round(pressure(2.0, 8e-6, 1e-9), 6)
     16000.0
     """
@@ -68,29 +52,18 @@ def pressure(time: Value, flow: float, capacity: float, start_pressure: float = 
 def modified_capacity(time: Value, flow: float, capacity: float, growth: float) -> Value:
     """Return the capacity that the modified model puts in place of C_i: ``C_i + c Q_i t``.
 
-    Parameters
-    ----------
-    time
-        Since the flow began, s, any shape.
-    flow
-        Q_i, m^3/s.
-    capacity
-        C_i, m^3/Pa, > 0.
-    growth
-        c, 1/Pa (see `gas.capacity_growth`); below zero for a capacity that falls.
+    Args:
+        time: Since the flow began, s, any shape.
+        flow: Q_i, m^3/s.
+        capacity: C_i, m^3/Pa, > 0.
+        growth: c, 1/Pa (see `gas.capacity_growth`); below zero for a capacity that falls.
 
-    Returns
-    -------
-    float or ndarray
-        m^3/Pa, shape of `time`.
+    Returns:
+        float or ndarray: m^3/Pa, shape of `time`.
 
-    Raises
-    ------
-    InvalidInputError
-        If the capacity is not above zero at some time.
+    Raises:
+        InvalidInputError: If the capacity is not above zero at some time.
 
-    Examples
-    --------
     >>> round(modified_capacity(10.0, 1e-5, 1e-9, 5e-6) * 1e9, 9)
     1.5
     """
@@ -108,8 +81,6 @@ def modified_pressure_rate(time: Value, flow: float, capacity: float, growth: fl
 
     Parameters and errors as for `modified_capacity`.
 
-    Examples
-    --------
     >>> round(modified_pressure_rate(10.0, 1e-5, 1e-9, 1e-5), 6)  # half of that at time 0
     5000.0
     """
@@ -124,13 +95,9 @@ def modified_pressure(
 
     Parameters and errors as for `modified_capacity`; with c = 0 it is `pressure`.
 
-    Returns
-    -------
-    float or ndarray
-        Pa, shape of `time`.
+    Returns:
+        float or ndarray: Pa, shape of `time`.
 
-    Examples
-    --------
     >>> float(round(modified_pressure(10.0, 1e-5, 1e-9, 1e-5) / 1e5, 6))  # ln 2
     0.693147
     """
@@ -144,20 +111,13 @@ def modified_pressure(
 def pressure_system(pump: Pump, capacity: float) -> control.StateSpace:
     """Return the pump as a state space, whose transfer function is Eq. (4.6).
 
-    Parameters
-    ----------
-    pump
-        The pump.
-    capacity
-        C_i, m^3/Pa, > 0, held constant.
+    Args:
+        pump: The pump.
+        capacity: C_i, m^3/Pa, > 0, held constant.
 
-    Returns
-    -------
-    control.StateSpace
-        Input `motor_speed`, rad/s; state and output `pressure`, Pa.
+    Returns:
+        control.StateSpace: Input `motor_speed`, rad/s; state and output `pressure`, Pa.
 
-    Examples
-    --------
     >>> system = pressure_system(Pump(6.61e-4, 0.008), 1e-9)
     >>> float(system.B[0, 0].round(3))
     841.611

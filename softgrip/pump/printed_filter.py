@@ -32,28 +32,19 @@ def printed_filter(
 
     No noise level is printed, so all are arguments.
 
-    Parameters
-    ----------
-    gain
-        k, m^3/Pa a radian and sample: the rate of the integral, so it depends on the loop time.
-    capacity, angle
-        First guess of C, m^3/Pa, and of theta, rad.
-    capacity_std, angle_std
-        Standard deviations of the first guess, > 0.
-    capacity_step, angle_step
-        Standard deviations of w_k, a sample, >= 0.
-    sensor
-        Standard deviation of v_k, the flex sensor's, rad, > 0.
+    Args:
+        gain: k, m^3/Pa a radian and sample: the rate of the integral, so it depends on the loop
+            time.
+        capacity, angle: First guess of C, m^3/Pa, and of theta, rad.
+        capacity_std, angle_std: Standard deviations of the first guess, > 0.
+        capacity_step, angle_step: Standard deviations of w_k, a sample, >= 0.
+        sensor: Standard deviation of v_k, the flex sensor's, rad, > 0.
 
-    Returns
-    -------
-    filterpy.kalman.KalmanFilter
-        State a column (2, 1).
+    Returns:
+        filterpy.kalman.KalmanFilter: State a column (2, 1).
 
-    Raises
-    ------
-    InvalidInputError
-        If a value is out of range.
+    Raises:
+        InvalidInputError: If a value is out of range.
     """
     check_finite(gain=gain, capacity=capacity, angle=angle)
     check_positive(capacity_std=capacity_std, angle_std=angle_std, sensor=sensor)
@@ -71,24 +62,16 @@ def printed_filter(
 def run_printed(kalman: KalmanFilter, angle: ArrayLike) -> tuple[Floats, Floats]:
     """Run the printed filter over measured angles; it updates the filter that is given.
 
-    Parameters
-    ----------
-    kalman
-        From `printed_filter`.
-    angle
-        Measured theta, rad, shape (N,), N >= 1.
+    Args:
+        kalman: From `printed_filter`.
+        angle: Measured theta, rad, shape (N,), N >= 1.
 
-    Returns
-    -------
-    state : ndarray
-        [C, theta] after each measurement, shape (N, 2).
-    covariance : ndarray
-        Shape (N, 2, 2).
+    Returns:
+        state (ndarray): [C, theta] after each measurement, shape (N, 2).
+        covariance (ndarray): Shape (N, 2, 2).
 
-    Raises
-    ------
-    InvalidInputError
-        If the angles are not finite or not of shape (N,).
+    Raises:
+        InvalidInputError: If the angles are not finite or not of shape (N,).
     """
     (measured,) = record(at_least=1, angle=angle)
     states, covariances = np.empty((measured.size, 2)), np.empty((measured.size, 2, 2))
@@ -103,22 +86,14 @@ def run_printed(kalman: KalmanFilter, angle: ArrayLike) -> tuple[Floats, Floats]
 def open_loop_capacity(angle: ArrayLike, gain: float, capacity: float) -> Floats:
     """Return the capacity that the process makes of known angles: ``C_0 + k sum_{j<k} theta_j``.
 
-    Parameters
-    ----------
-    angle
-        theta, rad, shape (N,).
-    gain
-        k, m^3/Pa a radian and sample.
-    capacity
-        C_0, m^3/Pa.
+    Args:
+        angle: theta, rad, shape (N,).
+        gain: k, m^3/Pa a radian and sample.
+        capacity: C_0, m^3/Pa.
 
-    Returns
-    -------
-    ndarray
-        Capacity at each sample, m^3/Pa, shape (N,).
+    Returns:
+        ndarray: Capacity at each sample, m^3/Pa, shape (N,).
 
-    Examples
-    --------
     >>> open_loop_capacity([1.0, 1.0, 1.0], 0.5, 2.0).tolist()  # the angle stands still
     [2.0, 2.5, 3.0]
     """

@@ -24,22 +24,15 @@ Order = Literal["margin", "rise time"]
 class Sizing:
     """One combination, judged.
 
-    Attributes
-    ----------
-    syringe, screw, motor
-        The combination.
-    stroke
-        Travel of the plunger from the start to the pressure, m.
-    motor_speed
-        That the rise time asks for, rad/s.
-    thrust
-        Of the gas and the seal at the end of the stroke, N.
-    torque_needed, torque_available
-        At the end of the stroke, at that speed, N m.
-    fastest_rise
-        Shortest rise time that keeps the margin asked for, s; infinity if there is none.
-    reasons
-        Why it cannot do it; empty if it can.
+    Attributes:
+        syringe, screw, motor: The combination.
+        stroke: Travel of the plunger from the start to the pressure, m.
+        motor_speed: That the rise time asks for, rad/s.
+        thrust: Of the gas and the seal at the end of the stroke, N.
+        torque_needed, torque_available: At the end of the stroke, at that speed, N m.
+        fastest_rise: Shortest rise time that keeps the margin asked for, s; infinity if there is
+            none.
+        reasons: Why it cannot do it; empty if it can.
     """
 
     syringe: Syringe
@@ -76,23 +69,17 @@ def size(
 ) -> Sizing:
     """Judge one combination.
 
-    Parameters
-    ----------
-    finger
-        What is wanted.
-    syringe, screw, motor
-        The parts.
-    fill
-        Part of the syringe's volume that holds air at the start, in (0, 1].
-    least_margin
-        Torque available over needed to ask for, >= 1; 1.5 is what Parker advises for steppers.
-    atmosphere
-        Pressure outside and at the start, Pa, > 0.
+    Args:
+        finger: What is wanted.
+        syringe, screw, motor: The parts.
+        fill: Part of the syringe's volume that holds air at the start, in (0, 1].
+        least_margin: Torque available over needed to ask for, >= 1; 1.5 is what Parker advises for
+            steppers.
+        atmosphere: Pressure outside and at the start, Pa, > 0.
 
-    Raises
-    ------
-    InvalidInputError
-        If the fill or the margin is out of range or the atmosphere is not above zero.
+    Raises:
+        InvalidInputError: If the fill or the margin is out of range or the atmosphere is not above
+            zero.
     """
     if not 0 < fill <= 1:
         raise InvalidInputError("fill", expected="a number in (0, 1]", got=fill)
@@ -147,24 +134,15 @@ def sizings(
 ) -> list[Sizing]:
     """Judge all combinations: those that can do it first, the best first.
 
-    Parameters
-    ----------
-    finger
-        What is wanted.
-    syringes, screws, motors
-        Parts to choose from.
-    fill, least_margin, atmosphere
-        As for `size`.
-    order
-        "margin", largest first, or "rise time", shortest possible first.
+    Args:
+        finger: What is wanted.
+        syringes, screws, motors: Parts to choose from.
+        fill, least_margin, atmosphere: As for `size`.
+        order: "margin", largest first, or "rise time", shortest possible first.
 
-    Raises
-    ------
-    InvalidInputError
-        If the order is unknown, or as for `size`.
+    Raises:
+        InvalidInputError: If the order is unknown, or as for `size`.
 
-    Examples
-    --------
     >>> finger = Finger(0.1e6, 20e-6, 25e-6, 5e-6, rise_time=4.0)
     >>> best = sizings(finger)[0]
     >>> best.syringe.name, best.screw.name, best.feasible

@@ -45,14 +45,10 @@ WIDTH = 0.25
 class Band:
     """A quantity of a log and the band that it should be in.
 
-    Attributes
-    ----------
-    quantity, place, unit
-        What, where it is printed, and in which unit.
-    low, high
-        Ends of the band, both included.
-    found
-        What the log gives; infinite for a step that does not settle.
+    Attributes:
+        quantity, place, unit: What, where it is printed, and in which unit.
+        low, high: Ends of the band, both included.
+        found: What the log gives; infinite for a step that does not settle.
     """
 
     quantity: str
@@ -123,20 +119,15 @@ def finger_bands(log: Log, clock: EvenClock, finger: int, experiment: Experiment
 def judge(path: Path | str, experiment: Experiment) -> tuple[Band, ...]:
     """Judge the log of a step.
 
-    Parameters
-    ----------
-    path
-        Of a log with a reference for each finger, one number from the first row on.
-    experiment
-        What was run: the LQR of Chapter 3, the PID on the full model of Chapter 4, or the scheme
-        of Chapter 6 with the faster H(s).
+    Args:
+        path: Of a log with a reference for each finger, one number from the first row on.
+        experiment: What was run: the LQR of Chapter 3, the PID on the full model of Chapter 4, or
+            the scheme of Chapter 6 with the faster H(s).
 
-    Raises
-    ------
-    InvalidInputError
-        If there is no such experiment.
-    DataFileError
-        If the log cannot be read, has no such reference, or misses too many rows in one place.
+    Raises:
+        InvalidInputError: If there is no such experiment.
+        DataFileError: If the log cannot be read, has no such reference, or misses too many rows in
+            one place.
     """
     if experiment not in get_args(Experiment):
         raise InvalidInputError(

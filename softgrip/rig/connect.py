@@ -33,34 +33,24 @@ def connect(
 ) -> Rig:
     """Return a rig to drive: simulated, replayed, emulated or real.
 
-    Parameters
-    ----------
-    where
-        "simulated" for the finger of Chapters 3 to 5, "simulated:gripper" for the two of Chapter 6;
-        "emulated" and "emulated:gripper" for the same at the pins of an emulated ATmega2560 that
-        runs the firmware, whose virtual time goes on when a sample is asked for; "replay:PATH" for
-        a log; a port or a URL such as "socket://host:port"; or None for the one board that is
-        found on USB.
-    fingers, period
-        Of a board on a port; the others have their own.
-    calibration
-        File of `calibration`, for a board on a port; None for the data sheets' lines.
-    seed
-        Of chance, for what is simulated or emulated.
-    emulated
-        Whether what answers on a port is an emulated board: its logs are then called simulated.
+    Args:
+        where: "simulated" for the finger of Chapters 3 to 5, "simulated:gripper" for the two of
+            Chapter 6; "emulated" and "emulated:gripper" for the same at the pins of an emulated
+            ATmega2560 that runs the firmware, whose virtual time goes on when a sample is asked
+            for; "replay:PATH" for a log; a port or a URL such as "socket://host:port"; or None for
+            the one board that is found on USB.
+        fingers, period: Of a board on a port; the others have their own.
+        calibration: File of `calibration`, for a board on a port; None for the data sheets' lines.
+        seed: Of chance, for what is simulated or emulated.
+        emulated: Whether what answers on a port is an emulated board: its logs are then called
+            simulated.
 
-    Raises
-    ------
-    BoardError
-        If a board cannot be reached.
-    EmulatorUnavailableError
-        If the compiler or the emulator is not installed; it says how to get them.
-    DataFileError
-        If a log or a calibration cannot be read.
+    Raises:
+        BoardError: If a board cannot be reached.
+        EmulatorUnavailableError: If the compiler or the emulator is not installed; it says how to
+            get them.
+        DataFileError: If a log or a calibration cannot be read.
 
-    Examples
-    --------
     >>> with connect("simulated") as rig:
     ...     rig.home()
     ...     rig.advance(10.0).time

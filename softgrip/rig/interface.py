@@ -44,16 +44,13 @@ class Rig(Protocol):
     def advance(self, command: ArrayLike) -> Measurement:
         """Hold a motor speed for one period and return the measurement at its end.
 
-        Parameters
-        ----------
-        command
-            rad/s, positive into the syringe, one number. A command that would go beyond a limit of
-            pressure or travel is held back, and an event says so.
+        Args:
+            command: rad/s, positive into the syringe, one number. A command that would go beyond a
+                limit of pressure or travel is held back, and an event says so.
 
-        Raises
-        ------
-        CommandRefusedError
-            After an emergency stop, and for a push before the plunger's place is known.
+        Raises:
+            CommandRefusedError: After an emergency stop, and for a push before the plunger's place
+                is known.
         """
         ...
 
@@ -98,12 +95,9 @@ class Rig(Protocol):
 class Interlock:
     """What keeps a stand-in for a board as strict as the board, so that a script runs on both.
 
-    Parameters
-    ----------
-    name
-        Of the stand-in, for messages.
-    pressure_limit
-        Pa, above which nothing is pushed.
+    Args:
+        name: Of the stand-in, for messages.
+        pressure_limit: Pa, above which nothing is pushed.
     """
 
     def __init__(self, name: str, pressure_limit: float) -> None:
@@ -114,12 +108,9 @@ class Interlock:
     def permitted(self, command: ArrayLike, pressure: float) -> float:
         """Return the speed that a command becomes at a pressure [Pa], or refuse it.
 
-        Raises
-        ------
-        InvalidInputError
-            If the command is not one finite number.
-        CommandRefusedError
-            After an emergency stop, or for a push before homing.
+        Raises:
+            InvalidInputError: If the command is not one finite number.
+            CommandRefusedError: After an emergency stop, or for a push before homing.
         """
         speed = one_speed(command)
         if self.stopped:

@@ -26,16 +26,11 @@ from softgrip.simulator.motor import one_speed
 class LiveExperiment:
     """What is run.
 
-    Attributes
-    ----------
-    name
-        For the log's name.
-    reference
-        rad, shape (N,), a sample each 25 ms.
-    controller
-        Makes what follows it, from one angle to motor speed.
-    shows
-        In words, for the log.
+    Attributes:
+        name: For the log's name.
+        reference: rad, shape (N,), a sample each 25 ms.
+        controller: Makes what follows it, from one angle to motor speed.
+        shows: In words, for the log.
     """
 
     name: str
@@ -86,32 +81,19 @@ class LiveRun(threading.Thread):
 
     A daemon: when the program ends, nobody speaks to the board any more, and it stops.
 
-    Parameters
-    ----------
-    rig
-        Sampled each 25 ms. Nothing else may use it until the run is over.
-    experiment
-        What is run.
-    path
-        Of the log, which must not exist.
-    rest
-        How long to wait after homing, s, for a finger that was bent before.
-    real_time
-        Whether a rig in virtual time is held back to the pace of a clock.
+    Args:
+        rig: Sampled each 25 ms. Nothing else may use it until the run is over.
+        experiment: What is run.
+        path: Of the log, which must not exist.
+        rest: How long to wait after homing, s, for a finger that was bent before.
+        real_time: Whether a rig in virtual time is held back to the pace of a clock.
 
-    Attributes
-    ----------
-    samples
-        So far; the thread appends to it.
-    state
-        In one word.
-    recording
-        None before the end, or if there was an error.
-    error
-        What ended the run early; None if nothing did.
+    Attributes:
+        samples: So far; the thread appends to it.
+        state: In one word.
+        recording: None before the end, or if there was an error.
+        error: What ended the run early; None if nothing did.
 
-    Examples
-    --------
     >>> import tempfile
     >>> import numpy as np
     >>> from softgrip.rig.connect import connect
@@ -149,10 +131,8 @@ class LiveRun(threading.Thread):
     def start(self) -> None:
         """Begin; a run can be started once.
 
-        Raises
-        ------
-        InvalidInputError
-            If another run of this rig is on.
+        Raises:
+            InvalidInputError: If another run of this rig is on.
         """
         if any(run.is_alive() and run.rig is self.rig for run in _STARTED):
             raise InvalidInputError("rig", expected="a rig with no other run on", got=self.rig)
@@ -162,17 +142,12 @@ class LiveRun(threading.Thread):
     def wait(self, within: float | None = None) -> Recording:
         """Wait for the end and return how the run went.
 
-        Parameters
-        ----------
-        within
-            s; None for as long as it takes.
+        Args:
+            within: s; None for as long as it takes.
 
-        Raises
-        ------
-        TimeoutError
-            If it is not over by then; it goes on.
-        BoardError
-            Or whatever else ended the run early.
+        Raises:
+            TimeoutError: If it is not over by then; it goes on.
+            BoardError: Or whatever else ended the run early.
         """
         self.join(within)
         if self.error is not None:

@@ -32,16 +32,11 @@ Progress = Callable[[float, float], None]
 class Recording:
     """How a run went.
 
-    Attributes
-    ----------
-    path
-        Of its log.
-    samples
-        Number of rows given to the log, the one at the start included.
-    reconnections
-        When the line was lost and found again: times of the run, s.
-    log_failure
-        Why rows are missing in the log; empty if none is.
+    Attributes:
+        path: Of its log.
+        samples: Number of rows given to the log, the one at the start included.
+        reconnections: When the line was lost and found again: times of the run, s.
+        log_failure: Why rows are missing in the log; empty if none is.
     """
 
     path: Path
@@ -72,42 +67,29 @@ def record(
 ) -> Recording:
     """Drive a rig, write the log, and leave the motor at rest.
 
-    Parameters
-    ----------
-    connection
-        The rig, homed. It stays open.
-    controller
-        From the angles, rad, shape (fingers, 1), to the motor speed, rad/s: a controller of Chapter
-        6, one of Chapters 3 and 4 in `rig_controller.Tracking`; or the speeds of each period, shape
-        (N,).
-    duration
-        s.
-    path
-        Of the log, which must not exist.
-    reference
-        For the log, rad, a number or shape (fingers,), or (N, fingers), one row a sample, the last
-        of which is held; None in open loop.
-    limit
-        The command is cut to it, rad/s.
-    shows
-        What the log shows, one line.
-    reconnect_within
-        How long a lost line is waited for, s. The board by itself stops the motor meanwhile.
-    progress
-        Told of each period.
+    Args:
+        connection: The rig, homed. It stays open.
+        controller: From the angles, rad, shape (fingers, 1), to the motor speed, rad/s: a
+            controller of Chapter 6, one of Chapters 3 and 4 in `rig_controller.Tracking`; or the
+            speeds of each period, shape (N,).
+        duration: s.
+        path: Of the log, which must not exist.
+        reference: For the log, rad, a number or shape (fingers,), or (N, fingers), one row a
+            sample, the last of which is held; None in open loop.
+        limit: The command is cut to it, rad/s.
+        shows: What the log shows, one line.
+        reconnect_within: How long a lost line is waited for, s. The board by itself stops the motor
+            meanwhile.
+        progress: Told of each period.
 
-    Returns
-    -------
-    Recording
-        Of a run that lasted to its end.
+    Returns:
+        Recording: Of a run that lasted to its end.
 
-    Raises
-    ------
-    BoardError
-        If a line stays lost, a command is refused, or a replayed log is over. The log is closed
-        and its last row says it; the same holds for whatever a controller raises, and for Ctrl-C.
-    InvalidInputError
-        If the path exists, or an argument is out of range.
+    Raises:
+        BoardError: If a line stays lost, a command is refused, or a replayed log is over. The log
+            is closed and its last row says it; the same holds for whatever a controller raises, and
+            for Ctrl-C.
+        InvalidInputError: If the path exists, or an argument is out of range.
     """
     check_positive(duration=duration, limit=limit, reconnect_within=reconnect_within)
     control = controller if hasattr(controller, "update") else CommandSequence(controller)
@@ -179,16 +161,11 @@ def more_columns(fingers: int, *, reference: bool) -> dict[str, str]:
 def log_row(time: float, command: float, seen: Measurement, reference: Floats) -> dict[str, float]:
     """Return the row of a log.
 
-    Parameters
-    ----------
-    time
-        Since the start, s.
-    command
-        Held until then, rad/s.
-    seen
-        Of one run, at that time.
-    reference
-        rad, shape (fingers,), or empty if there is none.
+    Args:
+        time: Since the start, s.
+        command: Held until then, rad/s.
+        seen: Of one run, at that time.
+        reference: rad, shape (fingers,), or empty if there is none.
     """
     row = {
         "time": round(time, 9),

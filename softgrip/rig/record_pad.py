@@ -62,28 +62,19 @@ def record_pad(
 ) -> Recording:
     """Write down what the pad says while it is touched; nothing moves.
 
-    Parameters
-    ----------
-    rig
-        A board of either set-up (both sample the pad's channels), or a `SimulatedPad`.
-    steps
-        What is done, one after the other: the words of each stand as an event where it begins. Or
-        s, > 0, of which nothing is said yet: `read_contacts` takes the words as labels.
-    path
-        Of the log, which must not exist.
-    shows
-        What the log shows, one line. Forces of contacts are not known, and stand as 0 in it.
-    say
-        Told the words when a step begins, so that who is at the pad knows what to do.
-    progress
-        Told of each sample.
+    Args:
+        rig: A board of either set-up (both sample the pad's channels), or a `SimulatedPad`.
+        steps: What is done, one after the other: the words of each stand as an event where it
+            begins. Or s, > 0, of which nothing is said yet: `read_contacts` takes the words as
+            labels.
+        path: Of the log, which must not exist.
+        shows: What the log shows, one line. Forces of contacts are not known, and stand as 0 in it.
+        say: Told the words when a step begins, so that who is at the pad knows what to do.
+        progress: Told of each sample.
 
-    Raises
-    ------
-    BoardError
-        If the line is lost. The log is closed and its last row says it.
-    InvalidInputError
-        If the path exists, or a duration is out of range.
+    Raises:
+        BoardError: If the line is lost. The log is closed and its last row says it.
+        InvalidInputError: If the path exists, or a duration is out of range.
     """
     given: Sequence[Step] = steps if isinstance(steps, Sequence) else [("", steps)]
     for _, seconds in given:

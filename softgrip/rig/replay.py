@@ -25,21 +25,16 @@ class Replay:
     an event that names the gap. A board's driver does the same when telemetry is lost, so that a
     controller is asked as often as it was in the run.
 
-    Parameters
-    ----------
-    path
-        Of the log.
+    Args:
+        path: Of the log.
 
-    Attributes
-    ----------
-    difference
-        Largest difference so far between a command given and the one recorded, rad/s: a replay
-        cannot answer to another command, so that above zero it says nothing of the controller.
+    Attributes:
+        difference: Largest difference so far between a command given and the one recorded, rad/s: a
+            replay cannot answer to another command, so that above zero it says nothing of the
+            controller.
 
-    Raises
-    ------
-    DataFileError
-        If it cannot be read, holds no row, or is a log of the pad.
+    Raises:
+        DataFileError: If it cannot be read, holds no row, or is a log of the pad.
     """
 
     real_time = False
@@ -72,10 +67,8 @@ class Replay:
     def advance(self, command: ArrayLike) -> Measurement:
         """Return the next row; see `Rig.advance`.
 
-        Raises
-        ------
-        EndOfReplayError
-            After the last row.
+        Raises:
+            EndOfReplayError: After the last row.
         """
         speed = self._interlock.permitted(command, 0.0)
         if self._row + 1 == self.log["time"].size:

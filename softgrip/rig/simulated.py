@@ -32,17 +32,11 @@ def simulated_gripper(*, seed: int = 0) -> "SimulatedRig":
 class SimulatedRig:
     """A simulated rig of one run as a `Rig`.
 
-    Parameters
-    ----------
-    rig
-        Which; it stays at hand as `rig`, with its truth.
-    calibration, seed
-        For the header of logs.
-    pressure_limit
-        Gauge, Pa.
+    Args:
+        rig: Which; it stays at hand as `rig`, with its truth.
+        calibration, seed: For the header of logs.
+        pressure_limit: Gauge, Pa.
 
-    Examples
-    --------
     >>> with simulated_finger() as finger:
     ...     finger.home()
     ...     finger.advance(5.0).angle.shape

@@ -13,15 +13,11 @@ class SimulatedPad:
 
     Time is simulated: nobody waits for it.
 
-    Parameters
-    ----------
-    seed, pad_seed
-        As of `PadHand`.
+    Args:
+        seed, pad_seed: As of `PadHand`.
 
-    Attributes
-    ----------
-    hand
-        What presses the pad; it remembers what it did.
+    Attributes:
+        hand: What presses the pad; it remembers what it did.
     """
 
     def __init__(self, *, seed: int = 0, pad_seed: int = SEED) -> None:

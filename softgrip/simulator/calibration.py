@@ -24,16 +24,11 @@ SPREAD_ANGLE, SPREAD_RMS = 75 * DEG, 2.5 * DEG  # middles of 60 to 90 deg and 2 
 class PrintedFinger:
     """What is printed of a finger and sets its parameters.
 
-    Attributes
-    ----------
-    full_angle
-        Bending angle at `FULL_PRESSURE` (Section 3.4), rad.
-    frequency
-        Natural frequency (Table 3.3), rad/s.
-    fractional_power
-        n of its rubber (Table 5.1).
-    width
-        mm (Table 3.1).
+    Attributes:
+        full_angle: Bending angle at `FULL_PRESSURE` (Section 3.4), rad.
+        frequency: Natural frequency (Table 3.3), rad/s.
+        fractional_power: n of its rubber (Table 5.1).
+        width: mm (Table 3.1).
     """
 
     full_angle: float
@@ -99,12 +94,9 @@ def calibrated(printed: PrintedFinger, *, spread: bool = True) -> RigParameters:
     The stiffness follows from the angle at 0.15 MPa; inertia and damping follow, in closed form,
     from the pole that the printed frequency and damping ratio name at `OPERATING_ANGLE`.
 
-    Parameters
-    ----------
-    printed
-        The numbers.
-    spread
-        Whether runs differ.
+    Args:
+        printed: The numbers.
+        spread: Whether runs differ.
     """
     n = printed.fractional_power
     bare = FingerParameters(

@@ -20,19 +20,14 @@ from softgrip.units import DEG
 class Entry:
     """One line of the calibration.
 
-    Attributes
-    ----------
-    use
-        "calibrated": the printed value set the parameter; "assumed": nothing printed, we chose it;
-        "checked": printed, but not used.
-    place, quantity, printed, unit
-        What is printed, and where; `printed` is a string, empty if assumed.
-    parameter, value
-        What it set, SI; empty and NaN if checked.
-    rig
-        What the rig gives, in `unit`.
-    residual
-        `rig` less the printed value, in `unit`; NaN where nothing is printed.
+    Attributes:
+        use: "calibrated": the printed value set the parameter; "assumed": nothing printed, we chose
+            it; "checked": printed, but not used.
+        place, quantity, printed, unit: What is printed, and where; `printed` is a string, empty if
+            assumed.
+        parameter, value: What it set, SI; empty and NaN if checked.
+        rig: What the rig gives, in `unit`.
+        residual: `rig` less the printed value, in `unit`; NaN where nothing is printed.
     """
 
     use: Literal["calibrated", "assumed", "checked"]

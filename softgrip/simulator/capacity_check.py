@@ -24,17 +24,11 @@ LOW, HIGH = 0.05 * MPa, 0.10 * MPa
 def least_air_swept(gauge: float, excess: float, atmosphere: float = ATMOSPHERE) -> float:
     """Return the least share of the starting volume to be swept for a model to lie above the truth.
 
-    Parameters
-    ----------
-    gauge
-        True pressure, Pa, at which the model, tangent at the start, is judged.
-    excess
-        By what part of the truth it is to lie above.
-    atmosphere
-        Pa.
+    Args:
+        gauge: True pressure, Pa, at which the model, tangent at the start, is judged.
+        excess: By what part of the truth it is to lie above.
+        atmosphere: Pa.
 
-    Examples
-    --------
     >>> round(least_air_swept(0.15e6, 0.3), 2)
     1.92
     """

@@ -24,12 +24,10 @@ def streams(seed: int, run: int) -> tuple[np.random.Generator, np.random.Generat
 class Chance:
     """What chance gives to the runs `first` to `first + runs` of a seed.
 
-    Attributes
-    ----------
-    stiffness, damping
-        Multiples of the parameters of each finger, median 1, shape (fingers, runs).
-    leakage
-        The same of the leak, shape (runs,).
+    Attributes:
+        stiffness, damping: Multiples of the parameters of each finger, median 1, shape (fingers,
+            runs).
+        leakage: The same of the leak, shape (runs,).
     """
 
     def __init__(self, spread: Spread, *, fingers: int, seed: int, first: int, runs: int) -> None:

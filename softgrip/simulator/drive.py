@@ -17,14 +17,10 @@ from softgrip.simulator.simulation import Simulation, Truth, together
 class Driven:
     """What happened in a batch of runs.
 
-    Attributes
-    ----------
-    time
-        s, shape (N,).
-    command
-        rad/s, shape (N, runs): what was held *until* each time, as in logs.
-    measured, truth
-        With a leading axis of N samples.
+    Attributes:
+        time: s, shape (N,).
+        command: rad/s, shape (N, runs): what was held *until* each time, as in logs.
+        measured, truth: With a leading axis of N samples.
     """
 
     time: Floats
@@ -44,21 +40,14 @@ def drive(
 ) -> Driven:
     """Run a controller on a rig at rest; the first sample is taken before it moves.
 
-    Parameters
-    ----------
-    rig
-        Its period is the controller's.
-    controller
-        From angles to motor speed.
-    duration
-        s.
-    limit
-        Of the command, rad/s. A controller may or may not know of it.
-    push
-        From the time [s] at which a period begins to the torque on the fingers over it, N m, of a
-        shape that broadcasts to (fingers, runs); None for none.
-    every
-        Periods of the rig in one of the controller's, >= 1; in between the command is held.
+    Args:
+        rig: Its period is the controller's.
+        controller: From angles to motor speed.
+        duration: s.
+        limit: Of the command, rad/s. A controller may or may not know of it.
+        push: From the time [s] at which a period begins to the torque on the fingers over it, N m,
+            of a shape that broadcasts to (fingers, runs); None for none.
+        every: Periods of the rig in one of the controller's, >= 1; in between the command is held.
     """
     measured, truths = [rig.measure()], [rig.truth]
     commands = [np.zeros(rig.runs)]

@@ -21,42 +21,29 @@ Counts = NDArray[np.int64]
 class ForceLayer:
     """The layer's parameters; each with the reason for its value.
 
-    Attributes
-    ----------
-    rest_resistance
-        Ohm, unloaded. Assumed: kilohms, as sheets of some cm^2 have.
-    pressed_resistance
-        Ohm, at a very large force. Assumed: a quarter of it.
-    bridge_resistance
-        Ohm, of the arm beside the layer. Assumed: so small that the bridge's largest voltage,
-        amplified, leaves a fifth of the converter's scale for drift.
-    soft_force
-        N, over which the conductance closes in on that of a very large force, as
-        1 - exp(-F / soft_force). Calibrated to the range of 0.7 N: a gram-force moves the
-        voltage there by about one count, less than the noise of a reading.
-    memory
-        Parts of the felt force that lag behind, fast and slow. Assumed: a tenth and a twentieth,
-        as filled polymers under pressure creep by about that much in a minute.
-    lag
-        s, of the two. Assumed: the fast one shorter than a grasp, the slow one longer.
-    supply
-        V, of bridge and converter: that of the Arduino MEGA.
-    amplification
-        Of the INA126. Assumed: its least, that without a resistor, as none is printed.
-    voltage_noise
-        V, at the converter, one deviation. Assumed: about half a count.
-    gain_drift
-        1/h, of the layer's conductance. Assumed; Section 2.3 says that the drift is linear, not
-        how large.
-    offset_drift
-        V/h, of bridge and amplifier. Assumed.
-    seating, object_seating
-        Spread of the part of a calibration weight, and of an object, that the layer feels, one
-        deviation. The first assumed: a weight is a little off the middle. The second calibrated
-        to Table 2.2: the four stiffer objects' deviations are 6.2 % of their weights (root mean
-        square).
-    largest_count
-        Of the converter: 10 bits.
+    Attributes:
+        rest_resistance: Ohm, unloaded. Assumed: kilohms, as sheets of some cm^2 have.
+        pressed_resistance: Ohm, at a very large force. Assumed: a quarter of it.
+        bridge_resistance: Ohm, of the arm beside the layer. Assumed: so small that the bridge's
+            largest voltage, amplified, leaves a fifth of the converter's scale for drift.
+        soft_force: N, over which the conductance closes in on that of a very large force, as 1 -
+            exp(-F / soft_force). Calibrated to the range of 0.7 N: a gram-force moves the voltage
+            there by about one count, less than the noise of a reading.
+        memory: Parts of the felt force that lag behind, fast and slow. Assumed: a tenth and a
+            twentieth, as filled polymers under pressure creep by about that much in a minute.
+        lag: s, of the two. Assumed: the fast one shorter than a grasp, the slow one longer.
+        supply: V, of bridge and converter: that of the Arduino MEGA.
+        amplification: Of the INA126. Assumed: its least, that without a resistor, as none is
+            printed.
+        voltage_noise: V, at the converter, one deviation. Assumed: about half a count.
+        gain_drift: 1/h, of the layer's conductance. Assumed; Section 2.3 says that the drift is
+            linear, not how large.
+        offset_drift: V/h, of bridge and amplifier. Assumed.
+        seating, object_seating: Spread of the part of a calibration weight, and of an object, that
+            the layer feels, one deviation. The first assumed: a weight is a little off the middle.
+            The second calibrated to Table 2.2: the four stiffer objects' deviations are 6.2 % of
+            their weights (root mean square).
+        largest_count: Of the converter: 10 bits.
     """
 
     rest_resistance: float = 20e3
@@ -90,14 +77,10 @@ def felt_force(force: Floats, period: float, layer: ForceLayer) -> Floats:
     Parts of it follow the force with first-order lags, from rest at zero: exact for a force that
     is constant between samples.
 
-    Parameters
-    ----------
-    force
-        N, shape (samples,).
-    period
-        s, from sample to sample.
-    layer
-        Its parameters.
+    Args:
+        force: N, shape (samples,).
+        period: s, from sample to sample.
+        layer: Its parameters.
     """
     felt = (1 - sum(layer.memory)) * force
     for part, lag in zip(layer.memory, layer.lag, strict=True):

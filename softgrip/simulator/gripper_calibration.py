@@ -39,14 +39,10 @@ OPEN_LOOP_DURATION = 6.0
 def push_commands(travel: float, pump: PumpParameters, speed: float = 5 * REV) -> Floats:
     """Return the motor speeds, rad/s, that push the plunger as far as said, then none.
 
-    Parameters
-    ----------
-    travel
-        m, > 0.
-    pump
-        Which.
-    speed
-        Not to be passed, rad/s.
+    Args:
+        travel: m, > 0.
+        pump: Which.
+        speed: Not to be passed, rad/s.
     """
     periods = max(1, int(np.ceil(travel / (pump.advance * speed * PERIOD) - 1e-9)))
     return np.full(periods, np.round(travel / (pump.advance * periods * PERIOD), SPEED_DIGITS))
@@ -64,11 +60,9 @@ def step_identifies(
 
     A push that is slower than the finger identifies nothing, or not in all runs.
 
-    Returns
-    -------
-    tuple
-        Angles at the end, rad, shape (fingers, runs), and the elements, their input in rad/s,
-        ``found[finger][run]``.
+    Returns:
+        tuple: Angles at the end, rad, shape (fingers, runs), and the elements, their input in
+            rad/s, ``found[finger][run]``.
     """
     commands = push_commands(travel, parameters.pump, speed)
     rig = Simulation(parameters, runs=runs, seed=seed, period=PERIOD)

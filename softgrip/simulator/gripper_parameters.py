@@ -105,14 +105,10 @@ def drawn_gripper(count: int, *, seed: int = 0, spread: bool = True) -> RigParam
     Stiffness, inertia and damping of each finger are log-normal about the geometric means of the
     two, with the deviation that two numbers give. They are the gripper's own, the same in each run.
 
-    Parameters
-    ----------
-    count
-        Number of fingers, 1 to 5.
-    seed
-        Of this gripper.
-    spread
-        Whether runs differ.
+    Args:
+        count: Number of fingers, 1 to 5.
+        seed: Of this gripper.
+        spread: Whether runs differ.
     """
     pair = printed_gripper(spread=spread)
     names = ("stiffness", "inertia", "damping")

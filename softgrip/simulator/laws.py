@@ -22,14 +22,10 @@ def leak(gauge: Number, leakage: Number, atmosphere: float) -> Number:
 
     It goes with ``P**2 - P_atm**2``, which is ``p (p + 2 P_atm)`` in the gauge pressure p.
 
-    Parameters
-    ----------
-    gauge
-        p, Pa.
-    leakage
-        G, m^3/(s Pa), >= 0.
-    atmosphere
-        P_atm, Pa.
+    Args:
+        gauge: p, Pa.
+        leakage: G, m^3/(s Pa), >= 0.
+        atmosphere: P_atm, Pa.
     """
     return leakage / 2 * gauge * (gauge + 2 * atmosphere)
 
@@ -62,21 +58,14 @@ class Contact(Protocol):
 class Plant:
     """The slopes of the states of fingers on one syringe, for a batch of runs.
 
-    Parameters
-    ----------
-    parameters
-        Of the rig.
-    chance
-        What each run has of stiffness, damping and leak.
-    contact
-        What the fingers touch; None for nothing.
+    Args:
+        parameters: Of the rig.
+        chance: What each run has of stiffness, damping and leak.
+        contact: What the fingers touch; None for nothing.
 
-    Attributes
-    ----------
-    push
-        Torque from outside, N m, positive bends a finger further, shape (fingers, runs).
-    states
-        Number of rows of the state.
+    Attributes:
+        push: Torque from outside, N m, positive bends a finger further, shape (fingers, runs).
+        states: Number of rows of the state.
     """
 
     def __init__(
@@ -113,14 +102,10 @@ class Plant:
     def gauge_pressure(self, amount: Floats, angle: Floats, syringe_volume: Floats) -> Floats:
         """Return the pressure above the atmosphere, Pa, shape (runs,).
 
-        Parameters
-        ----------
-        amount
-            n R T, J, shape (runs,).
-        angle
-            rad, shape (fingers, runs).
-        syringe_volume
-            Air in the syringe, m^3, shape (runs,).
+        Args:
+            amount: n R T, J, shape (runs,).
+            angle: rad, shape (fingers, runs).
+            syringe_volume: Air in the syringe, m^3, shape (runs,).
         """
         swept = self.torque_per_pressure * angle
         volume: Floats = sum(swept[1:], swept[0])

@@ -11,21 +11,14 @@ from softgrip.simulator.parameters import PumpParameters
 def speed(start: Floats, command: Floats, elapsed: Floats, pump: PumpParameters) -> Floats:
     """Return the motor speed that ramps from `start` to the commanded one.
 
-    Parameters
-    ----------
-    start
-        Speed at the time of the command, rad/s, shape (runs,).
-    command
-        Commanded speed, rad/s, shape (runs,); cut to the speed limit.
-    elapsed
-        Time since the command, s, >= 0; broadcasts with the others.
-    pump
-        Its limits.
+    Args:
+        start: Speed at the time of the command, rad/s, shape (runs,).
+        command: Commanded speed, rad/s, shape (runs,); cut to the speed limit.
+        elapsed: Time since the command, s, >= 0; broadcasts with the others.
+        pump: Its limits.
 
-    Returns
-    -------
-    ndarray
-        rad/s, of the shape to which the inputs broadcast.
+    Returns:
+        ndarray: rad/s, of the shape to which the inputs broadcast.
     """
     change = np.clip(command, -pump.speed_limit, pump.speed_limit) - start
     ramp = pump.acceleration_limit * elapsed
@@ -37,10 +30,8 @@ def travel(start: Floats, command: Floats, elapsed: Floats, pump: PumpParameters
 
     Parameters and shapes as in `speed`.
 
-    Returns
-    -------
-    ndarray
-        m, positive into the syringe. The ends of the stroke are not seen here.
+    Returns:
+        ndarray: m, positive into the syringe. The ends of the stroke are not seen here.
     """
     target = np.clip(command, -pump.speed_limit, pump.speed_limit)
     change = target - start

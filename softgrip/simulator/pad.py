@@ -19,20 +19,13 @@ from softgrip.tactile.element_sensitivity import AT_REST, resistance
 class Pad:
     """One pad, with what sets its elements apart.
 
-    Attributes
-    ----------
-    parameters
-        Of all pads.
-    at_rest
-        Resistance at rest, Ohm, shape (elements,).
-    gain
-        Multiple of the relative change of the resistance, shape (elements,).
-    compliance
-        m/N, shape (elements,).
-    height
-        How far each stands above the others, m, shape (elements,).
-    drift
-        Relative change of the resistance at rest, 1/s, shape (elements,).
+    Attributes:
+        parameters: Of all pads.
+        at_rest: Resistance at rest, Ohm, shape (elements,).
+        gain: Multiple of the relative change of the resistance, shape (elements,).
+        compliance: m/N, shape (elements,).
+        height: How far each stands above the others, m, shape (elements,).
+        drift: Relative change of the resistance at rest, 1/s, shape (elements,).
     """
 
     parameters: PadParameters
@@ -63,21 +56,14 @@ def press(
 ) -> Floats:
     """Return the forces on the elements, N, shape (elements,), when an object is pressed.
 
-    Parameters
-    ----------
-    pad
-        The pad.
-    item, pose
-        What is pressed, and how it is laid.
-    force
-        Contact force, N.
-    chance
-        Gives its rough surface; without it the object is smooth.
+    Args:
+        pad: The pad.
+        item, pose: What is pressed, and how it is laid.
+        force: Contact force, N.
+        chance: Gives its rough surface; without it the object is smooth.
 
-    Raises
-    ------
-    InvalidInputError
-        If the object lies beside all elements.
+    Raises:
+        InvalidInputError: If the object lies beside all elements.
     """
     gaps = gap(item, pose, bed_points(pad.parameters), chance) - pad.height[:, None]
     k = np.array([spring_stiffness(pad.parameters, item.softness)])
@@ -90,16 +76,11 @@ def voltages(
 ) -> Floats:
     """Return the voltages of the elements and of the force layer, V, shape (elements + 1,).
 
-    Parameters
-    ----------
-    pad
-        The pad.
-    forces
-        On its elements, N, shape (elements,).
-    time
-        Since the start of the log, s; the resistances drift with it.
-    chance
-        Gives noise and repeatability; without it there is none.
+    Args:
+        pad: The pad.
+        forces: On its elements, N, shape (elements,).
+        time: Since the start of the log, s; the resistances drift with it.
+        chance: Gives noise and repeatability; without it there is none.
     """
     own, n = pad.parameters, pad.parameters.layout.elements
     drawn = np.zeros(2 * n + 1) if chance is None else chance.standard_normal(2 * n + 1)

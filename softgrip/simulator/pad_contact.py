@@ -41,16 +41,11 @@ def force_at_depth(depth: Floats, gaps: Floats, stiffness: Floats, compliance: F
     ``k (m d - S) / (1 + c k m)``. The true m is the one that gives the largest force, as the
     force over depth is convex, and each of these lines is one of its tangents.
 
-    Parameters
-    ----------
-    depth
-        d, m, shape (...).
-    gaps
-        Of the springs, m, in rising order, shape (..., springs).
-    stiffness
-        k of a spring, N/m, shape (...).
-    compliance
-        c of the element, m/N, shape (...).
+    Args:
+        depth: d, m, shape (...).
+        gaps: Of the springs, m, in rising order, shape (..., springs).
+        stiffness: k of a spring, N/m, shape (...).
+        compliance: c of the element, m/N, shape (...).
     """
     m = np.arange(1, gaps.shape[-1] + 1)
     k, c = stiffness[..., None], compliance[..., None]
@@ -62,26 +57,17 @@ def force_at_depth(depth: Floats, gaps: Floats, stiffness: Floats, compliance: F
 def element_forces(gaps: Floats, stiffness: Floats, compliance: Floats, force: Floats) -> Floats:
     """Return how contact forces are shared among the elements.
 
-    Parameters
-    ----------
-    gaps
-        Between object and springs, m, shape (N, elements, springs).
-    stiffness
-        Of a spring in each contact, N/m, shape (N,).
-    compliance
-        Of the elements, m/N, shape (elements,).
-    force
-        Contact force, N, >= 0, shape (N,).
+    Args:
+        gaps: Between object and springs, m, shape (N, elements, springs).
+        stiffness: Of a spring in each contact, N/m, shape (N,).
+        compliance: Of the elements, m/N, shape (elements,).
+        force: Contact force, N, >= 0, shape (N,).
 
-    Returns
-    -------
-    Floats
-        N, shape (N, elements); the elements of a contact add up to its force.
+    Returns:
+        Floats: N, shape (N, elements); the elements of a contact add up to its force.
 
-    Raises
-    ------
-    InvalidInputError
-        If an object meets no element, or a force is not >= 0.
+    Raises:
+        InvalidInputError: If an object meets no element, or a force is not >= 0.
     """
     ordered = np.sort(gaps, axis=-1)
     if not np.isfinite(ordered[..., 0].min(axis=-1)).all():

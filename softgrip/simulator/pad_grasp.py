@@ -17,23 +17,16 @@ from softgrip.tactile.force_control import Command, ForceController
 class PadGrasp:
     """A gripper that closes on an object, for a batch of runs; command m, measurement N.
 
-    Parameters
-    ----------
-    squeeze
-        How the force rises.
-    gripper
-        The gripper, open at position 0.
-    told
-        What force the pad says for each count of its converter, N, shape (counts,).
-    samples
-        Most measurements that will be taken.
-    runs, seed
-        Number of grasps, and of chance: what part of the force the layer feels in each, and noise.
+    Args:
+        squeeze: How the force rises.
+        gripper: The gripper, open at position 0.
+        told: What force the pad says for each count of its converter, N, shape (counts,).
+        samples: Most measurements that will be taken.
+        runs, seed: Number of grasps, and of chance: what part of the force the layer feels in each,
+            and noise.
 
-    Attributes
-    ----------
-    force
-        True contact forces after each measurement so far, N, a list of shape (runs,) each.
+    Attributes:
+        force: True contact forces after each measurement so far, N, a list of shape (runs,) each.
     """
 
     def __init__(
@@ -75,14 +68,10 @@ class PadGrasp:
 class GraspRecord:
     """What happened in a batch of grasps.
 
-    Attributes
-    ----------
-    time
-        s, shape (samples,).
-    desired
-        Contact force, N.
-    measured, force
-        What the pad says and what the force is, N, shape (runs, samples).
+    Attributes:
+        time: s, shape (samples,).
+        desired: Contact force, N.
+        measured, force: What the pad says and what the force is, N, shape (runs, samples).
     """
 
     time: Floats
@@ -105,22 +94,14 @@ def grasp(
 ) -> GraspRecord:
     """Close the gripper on an object under force control.
 
-    Parameters
-    ----------
-    squeeze
-        Of the object.
-    gains, command
-        As of `ForceController`.
-    desired
-        Contact force, N.
-    told
-        As of `PadGrasp`.
-    gripper
-        None for `GraspGripper`.
-    duration
-        s.
-    runs, seed
-        As of `PadGrasp`.
+    Args:
+        squeeze: Of the object.
+        gains, command: As of `ForceController`.
+        desired: Contact force, N.
+        told: As of `PadGrasp`.
+        gripper: None for `GraspGripper`.
+        duration: s.
+        runs, seed: As of `PadGrasp`.
     """
     gripper = gripper or GraspGripper()
     samples = round(duration / PERIOD) + 2

@@ -23,24 +23,17 @@ from softgrip.units import MM
 class GraspGripper:
     """The gripper's parameters; each with the reason for its value. All but two are assumed.
 
-    Attributes
-    ----------
-    lag
-        s, of the servomotor's position. Assumed: a hobby servo without load.
-    speed
-        Largest speed of closing, m/s. Assumed: 60 degrees in 0.2 s on a stroke of 40 mm in 180
-        degrees give 67 mm/s; with a load, some less.
-    resolution
-        m, of the commanded position. Assumed: that stroke in 2000 pulse widths of a microsecond
-        each. Dead band and play of the gears are left out.
-    delay
-        Periods by which a command comes late. Assumed: a servo takes one in every 20 ms.
-    opening
-        m, between finger and object at first. Assumed.
-    plain_thickness
-        m, of the rubber on the other finger: that of the printed pad (Section 2.2).
-    plain_modulus
-        Pa, of that rubber: the printed one.
+    Attributes:
+        lag: s, of the servomotor's position. Assumed: a hobby servo without load.
+        speed: Largest speed of closing, m/s. Assumed: 60 degrees in 0.2 s on a stroke of 40 mm in
+            180 degrees give 67 mm/s; with a load, some less.
+        resolution: m, of the commanded position. Assumed: that stroke in 2000 pulse widths of a
+            microsecond each. Dead band and play of the gears are left out.
+        delay: Periods by which a command comes late. Assumed: a servo takes one in every 20 ms.
+        opening: m, between finger and object at first. Assumed.
+        plain_thickness: m, of the rubber on the other finger: that of the printed pad (Section
+            2.2).
+        plain_modulus: Pa, of that rubber: the printed one.
     """
 
     lag: float = 0.030
@@ -64,10 +57,8 @@ class GraspGripper:
 class Squeeze:
     """Contact force, N, by how far the gripper has closed from the first touch, m.
 
-    Attributes
-    ----------
-    closing, force
-        Shape (points,), both rising from zero; between the points it is straight.
+    Attributes:
+        closing, force: Shape (points,), both rising from zero; between the points it is straight.
     """
 
     closing: Floats
@@ -119,14 +110,10 @@ def plain_side(gripper: GraspGripper, item: PadObject, pose: Pose, depth: Floats
 def squeeze(pad: Pad, item: PadObject, pose: Pose, gripper: GraspGripper) -> Squeeze:
     """Return how the force rises as the gripper closes: both sides bear it, one after the other.
 
-    Parameters
-    ----------
-    pad
-        On one finger.
-    item, pose
-        What is grasped, and how it lies against both fingers; smooth.
-    gripper
-        With the other finger.
+    Args:
+        pad: On one finger.
+        item, pose: What is grasped, and how it lies against both fingers; smooth.
+        gripper: With the other finger.
     """
     depth = DEEPEST * np.linspace(0, 1, DEPTHS) ** 2
     force = np.linspace(0, LARGEST, FORCES)
@@ -137,14 +124,10 @@ def squeeze(pad: Pad, item: PadObject, pose: Pose, gripper: GraspGripper) -> Squ
 def servo_position(position: Floats, target: Floats, time: float, gripper: GraspGripper) -> Floats:
     """Return where the servomotor is after a time, m: a first-order lag whose speed is limited.
 
-    Parameters
-    ----------
-    position, target
-        m, shape (runs,).
-    time
-        s, >= 0.
-    gripper
-        Its lag and speed.
+    Args:
+        position, target: m, shape (runs,).
+        time: s, >= 0.
+        gripper: Its lag and speed.
     """
     away = target - position
     fast = np.clip((np.abs(away) - gripper.speed * gripper.lag) / gripper.speed, 0.0, time)

@@ -54,17 +54,12 @@ class Press:
 class PadHand:
     """A hand with a pad before it.
 
-    Parameters
-    ----------
-    seed
-        Of poses, forces, surfaces and noise.
-    pad_seed
-        Of the pad.
+    Args:
+        seed: Of poses, forces, surfaces and noise.
+        pad_seed: Of the pad.
 
-    Attributes
-    ----------
-    presses
-        The contacts whose full force was reached; weights and calibration are none.
+    Attributes:
+        presses: The contacts whose full force was reached; weights and calibration are none.
     """
 
     def __init__(self, *, seed: int = 0, pad_seed: int = SEED) -> None:
@@ -79,10 +74,8 @@ class PadHand:
     def obey(self, words: str, time: float) -> None:
         """Begin at a time, s, to do what words say.
 
-        Raises
-        ------
-        UnknownNameError
-            If they name no object of `pad_objects`.
+        Raises:
+            UnknownNameError: If they name no object of `pad_objects`.
         """
         kind, _, name = words.partition(": ")
         if kind in (*KINDS, CONTACT):

@@ -17,22 +17,14 @@ KILOPASCAL = 1e3
 class PadObject:
     """The side of an object that faces the pad.
 
-    Attributes
-    ----------
-    name
-        What it is called.
-    kind
-        Contact feature that it counts as: point, line or surface.
-    radii
-        Of curvature along and across, m; infinite where it is straight.
-    size
-        Length and width, m; beyond them it ends. A rounded end may lie before.
-    roughness
-        Deviation of its surface from that shape, m rms.
-    young_modulus
-        Pa; infinite if rigid.
-    depth
-        Of the material that gives way, m.
+    Attributes:
+        name: What it is called.
+        kind: Contact feature that it counts as: point, line or surface.
+        radii: Of curvature along and across, m; infinite where it is straight.
+        size: Length and width, m; beyond them it ends. A rounded end may lie before.
+        roughness: Deviation of its surface from that shape, m rms.
+        young_modulus: Pa; infinite if rigid.
+        depth: Of the material that gives way, m.
     """
 
     name: str
@@ -108,10 +100,8 @@ OTHERS = (
 def pad_object(name: str) -> PadObject:
     """Find an object by its name.
 
-    Raises
-    ------
-    UnknownNameError
-        If there is none.
+    Raises:
+        UnknownNameError: If there is none.
     """
     known = {item.name: item for item in (*FOODS, *OTHERS)}
     if name not in known:

@@ -19,14 +19,10 @@ WAVELENGTHS = (6 * MM, 25 * MM)
 class Pose:
     """How an object is laid on the pad.
 
-    Attributes
-    ----------
-    place
-        Of its middle, m, from the middle of the pad.
-    angle
-        Of its length against the pad's, rad.
-    tilt
-        Slopes along its length and across, rad.
+    Attributes:
+        place: Of its middle, m, from the middle of the pad.
+        angle: Of its length against the pad's, rad.
+        tilt: Slopes along its length and across, rad.
     """
 
     place: tuple[float, float]
@@ -39,8 +35,6 @@ def rise(x: Floats, radius: float) -> Floats:
 
     Beyond its radius, where there is nothing of it, it is infinite.
 
-    Examples
-    --------
     >>> rise(np.array([0.0, 3.0, 9.0]), 5.0).tolist()
     [0.0, 1.0, inf]
     """
@@ -54,14 +48,10 @@ def rise(x: Floats, radius: float) -> Floats:
 def roughness(u: Floats, v: Floats, rms: float, chance: np.random.Generator) -> Floats:
     """Return a random surface of a given deviation, m: waves of all directions.
 
-    Parameters
-    ----------
-    u, v
-        Places on it, m, of one shape.
-    rms
-        Its deviation, m.
-    chance
-        Gives directions, lengths and phases of the waves.
+    Args:
+        u, v: Places on it, m, of one shape.
+        rms: Its deviation, m.
+        chance: Gives directions, lengths and phases of the waves.
     """
     direction, phase = chance.uniform(0, 2 * np.pi, (2, WAVES))
     shortest, longest = (log(length) for length in WAVELENGTHS)
@@ -76,19 +66,14 @@ def gap(
 ) -> Floats:
     """Return the gap between pad and object, m, when its lowest point would just touch.
 
-    Parameters
-    ----------
-    item, pose
-        What lies on the pad, and how.
-    points
-        Places on the pad, m, shape (..., 2).
-    chance
-        Gives a rough surface; without it the object is smooth.
+    Args:
+        item, pose: What lies on the pad, and how.
+        points: Places on the pad, m, shape (..., 2).
+        chance: Gives a rough surface; without it the object is smooth.
 
-    Returns
-    -------
-    Floats
-        m, shape (...); infinite beyond the object. With tilt or roughness it may be negative.
+    Returns:
+        Floats: m, shape (...); infinite beyond the object. With tilt or roughness it may be
+            negative.
     """
     away = points - np.array(pose.place)
     cosine, sine = np.cos(pose.angle), np.sin(pose.angle)

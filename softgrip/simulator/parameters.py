@@ -20,18 +20,12 @@ def _check(parameters: object, *, zero: tuple[str, ...] = ()) -> None:
 class PumpParameters:
     """The syringe and the linear actuator that drives it (Sections 4.2 and 4.4).
 
-    Attributes
-    ----------
-    area
-        A, m^2.
-    lead
-        l of the screw, m.
-    syringe_volume
-        Air in the syringe when its plunger is drawn out, m^3.
-    speed_limit
-        Largest motor speed, rad/s.
-    acceleration_limit
-        Largest change of motor speed, rad/s^2 (assumed: 0.1 s to full speed).
+    Attributes:
+        area: A, m^2.
+        lead: l of the screw, m.
+        syringe_volume: Air in the syringe when its plunger is drawn out, m^3.
+        speed_limit: Largest motor speed, rad/s.
+        acceleration_limit: Largest change of motor speed, rad/s^2 (assumed: 0.1 s to full speed).
     """
 
     area: float = 6.61e-4
@@ -58,17 +52,12 @@ class PumpParameters:
 class GasParameters:
     """The air: ideal, and at the temperature of the room (Section 4.2).
 
-    Attributes
-    ----------
-    temperature
-        K (assumed).
-    atmosphere
-        Pa, absolute (standard).
-    dead_volume
-        Tube and fittings, m^3 (assumed: 0.4 m of 2.5 mm bore).
-    leakage
-        G of the leak ``n R T' = -G (P**2 - P_atm**2) / 2``, m^3/(s Pa): laminar flow of a gas
-        through a narrow gap (assumed: 0.2 % of the air a second at 0.15 MPa).
+    Attributes:
+        temperature: K (assumed).
+        atmosphere: Pa, absolute (standard).
+        dead_volume: Tube and fittings, m^3 (assumed: 0.4 m of 2.5 mm bore).
+        leakage: G of the leak ``n R T' = -G (P**2 - P_atm**2) / 2``, m^3/(s Pa): laminar flow of a
+            gas through a narrow gap (assumed: 0.2 % of the air a second at 0.15 MPa).
     """
 
     temperature: float = 293.15
@@ -84,29 +73,19 @@ class GasParameters:
 class FingerParameters:
     """The finger. `softgrip.simulator.calibration` gives those of Design 1.
 
-    Attributes
-    ----------
-    stiffness
-        K of the settled torque ``K theta**n``, N m/rad^n.
-    fractional_power
-        n, >= 1.
-    inertia
-        kg m^2: what the printed frequency asks for, far above that of the rubber alone.
-    damping
-        N m s/rad.
-    torque_per_pressure
-        N m/Pa. It is also the growth of the finger's volume with its angle, m^3/rad: the work
-        that the air does when the finger bends is the work of the torque.
-    rest_volume
-        Air in the finger at rest, m^3.
-    ballooning
-        Growth of its volume with pressure at a held angle, m^3/Pa (assumed).
-    memory
-        Parts of the settled torque that the branches of the memory add at once, dimensionless.
-    memory_time
-        Their relaxation times, s (both assumed).
-    friction
-        Torque of dry friction, N m (assumed), smoothed below `friction_rate`, rad/s.
+    Attributes:
+        stiffness: K of the settled torque ``K theta**n``, N m/rad^n.
+        fractional_power: n, >= 1.
+        inertia: kg m^2: what the printed frequency asks for, far above that of the rubber alone.
+        damping: N m s/rad.
+        torque_per_pressure: N m/Pa. It is also the growth of the finger's volume with its angle,
+            m^3/rad: the work that the air does when the finger bends is the work of the torque.
+        rest_volume: Air in the finger at rest, m^3.
+        ballooning: Growth of its volume with pressure at a held angle, m^3/Pa (assumed).
+        memory: Parts of the settled torque that the branches of the memory add at once,
+            dimensionless.
+        memory_time: Their relaxation times, s (both assumed).
+        friction: Torque of dry friction, N m (assumed), smoothed below `friction_rate`, rad/s.
     """
 
     stiffness: float
@@ -136,24 +115,15 @@ class SensorParameters:
     Both sensors are first-order lags. Their outputs span the middle of the converter's scale, from
     `low_count` to `high_count`, as 0.5 to 4.5 V of 5 V do.
 
-    Attributes
-    ----------
-    pressure_range
-        Pa, gauge.
-    pressure_noise
-        Pa, root mean square (assumed).
-    pressure_lag
-        s (assumed).
-    angle_range
-        rad; a finger that bends further reads this.
-    angle_noise
-        rad, root mean square.
-    angle_lag
-        s (assumed).
-    low_count, high_count
-        Counts at zero and at the end of the range.
-    bits
-        Of the converter.
+    Attributes:
+        pressure_range: Pa, gauge.
+        pressure_noise: Pa, root mean square (assumed).
+        pressure_lag: s (assumed).
+        angle_range: rad; a finger that bends further reads this.
+        angle_noise: rad, root mean square.
+        angle_lag: s (assumed).
+        low_count, high_count: Counts at zero and at the end of the range.
+        bits: Of the converter.
     """
 
     pressure_range: float = 80 * PSI
@@ -185,12 +155,9 @@ class SensorParameters:
 class Spread:
     """Standard deviation of the logarithm of what differs from run to run, dimensionless.
 
-    Attributes
-    ----------
-    stiffness, damping
-        Of the finger; the first is calibrated, the second assumed.
-    leakage
-        Of the air path (assumed).
+    Attributes:
+        stiffness, damping: Of the finger; the first is calibrated, the second assumed.
+        leakage: Of the air path (assumed).
     """
 
     stiffness: float = 0.0
@@ -205,19 +172,13 @@ class Spread:
 class RigParameters:
     """All of a simulated rig: fingers on one syringe, one pressure sensor, a flex sensor each.
 
-    Attributes
-    ----------
-    fingers
-        One to five, with as many branches of memory each.
-    pump
-        Common to all.
-    spread
-        From run to run, of each finger by itself; the leak is common.
+    Attributes:
+        fingers: One to five, with as many branches of memory each.
+        pump: Common to all.
+        spread: From run to run, of each finger by itself; the leak is common.
 
-    Raises
-    ------
-    InvalidInputError
-        If the fingers are none, too many, or have other numbers of branches.
+    Raises:
+        InvalidInputError: If the fingers are none, too many, or have other numbers of branches.
     """
 
     fingers: tuple[FingerParameters, ...]

@@ -15,16 +15,11 @@ Counts = NDArray[np.int64]
 class Measurement:
     """What the sensors say at one time, or, with a leading axis, at many.
 
-    Attributes
-    ----------
-    time
-        s, a number or shape (samples,).
-    pressure
-        Gauge, Pa, shape (..., runs).
-    angle
-        rad, shape (..., fingers, runs).
-    pressure_counts, angle_counts
-        What the converter gave, same shapes.
+    Attributes:
+        time: s, a number or shape (samples,).
+        pressure: Gauge, Pa, shape (..., runs).
+        angle: rad, shape (..., fingers, runs).
+        pressure_counts, angle_counts: What the converter gave, same shapes.
     """
 
     time: float | Floats
@@ -37,17 +32,11 @@ class Measurement:
 def to_counts(value: Floats, full: float, sensors: SensorParameters) -> Counts:
     """Return the counts of a sensor, rounded and cut to the converter's scale.
 
-    Parameters
-    ----------
-    value
-        Output of the sensor with its noise, any unit, any shape.
-    full
-        End of the sensor's range, same unit.
-    sensors
-        Its scale.
+    Args:
+        value: Output of the sensor with its noise, any unit, any shape.
+        full: End of the sensor's range, same unit.
+        sensors: Its scale.
 
-    Examples
-    --------
     >>> to_counts(np.array([0.0, 1.0, 9.0]), 1.0, SensorParameters()).tolist()
     [102, 921, 1023]
     """
@@ -68,16 +57,12 @@ def measure(
 ) -> Measurement:
     """Convert what the sensors feel.
 
-    Parameters
-    ----------
-    time
-        s.
-    pressure, angle
-        Outputs of the lags, Pa gauge and rad, shape (runs,) and (fingers, runs).
-    noise
-        Standard normal numbers, shape (1 + fingers, runs): of the pressure and of each angle.
-    sensors
-        Their parameters.
+    Args:
+        time: s.
+        pressure, angle: Outputs of the lags, Pa gauge and rad, shape (runs,) and (fingers, runs).
+        noise: Standard normal numbers, shape (1 + fingers, runs): of the pressure and of each
+            angle.
+        sensors: Their parameters.
     """
     felt_pressure = np.minimum(pressure, sensors.pressure_range)
     felt_angle = np.minimum(angle, sensors.angle_range)

@@ -37,20 +37,13 @@ Sample = TypeVar("Sample", Measurement, "Truth")
 class Truth:
     """What the sensors of a real rig would not tell.
 
-    Attributes
-    ----------
-    time
-        s; a number, or shape (samples,) as the leading axis of all others.
-    pressure, motor_speed
-        Pa gauge and rad/s, shape (runs,).
-    plunger
-        Travel from where it is drawn out, m, shape (runs,).
-    amount
-        Air in the rig, mol, shape (runs,).
-    angle, rate
-        rad and rad/s, shape (fingers, runs).
-    contact
-        States of what is touched, shape (states, runs).
+    Attributes:
+        time: s; a number, or shape (samples,) as the leading axis of all others.
+        pressure, motor_speed: Pa gauge and rad/s, shape (runs,).
+        plunger: Travel from where it is drawn out, m, shape (runs,).
+        amount: Air in the rig, mol, shape (runs,).
+        angle, rate: rad and rad/s, shape (fingers, runs).
+        contact: States of what is touched, shape (states, runs).
     """
 
     time: float | Floats
@@ -66,33 +59,20 @@ class Truth:
 class Simulation:
     """A batch of runs of a rig, from rest at atmospheric pressure.
 
-    Parameters
-    ----------
-    parameters
-        Of the rig; `calibration.design_1` and `gripper_parameters.printed_gripper` give the
-        calibrated ones.
-    runs
-        Number of runs.
-    seed
-        Of all chance.
-    first
-        Number of the first run: run i of a batch is run 0 of ``Simulation(..., first=i)``.
-    period
-        Sampling period, s; commands are held over it.
-    plunger
-        Travel of the plunger at the start, m, a number or shape (runs,).
-    contact
-        What the fingers touch; None for nothing.
-    step
-        Largest step of the integration, s; a stiff contact asks for a shorter one.
+    Args:
+        parameters: Of the rig; `calibration.design_1` and `gripper_parameters.printed_gripper` give
+            the calibrated ones.
+        runs: Number of runs.
+        seed: Of all chance.
+        first: Number of the first run: run i of a batch is run 0 of ``Simulation(..., first=i)``.
+        period: Sampling period, s; commands are held over it.
+        plunger: Travel of the plunger at the start, m, a number or shape (runs,).
+        contact: What the fingers touch; None for nothing.
+        step: Largest step of the integration, s; a stiff contact asks for a shorter one.
 
-    Raises
-    ------
-    InvalidInputError
-        If a value is out of range.
+    Raises:
+        InvalidInputError: If a value is out of range.
 
-    Examples
-    --------
     >>> from softgrip.simulator.gripper_parameters import printed_gripper
     >>> rig = Simulation(printed_gripper(), runs=3)
     >>> rig.advance(5.0).angle.shape
@@ -168,10 +148,8 @@ class Simulation:
     def push(self, torque: ArrayLike) -> None:
         """Push on the fingers from now on.
 
-        Parameters
-        ----------
-        torque
-            N m, positive bends a finger further; broadcasts to shape (fingers, runs).
+        Args:
+            torque: N m, positive bends a finger further; broadcasts to shape (fingers, runs).
         """
         values = np.broadcast_to(np.asarray(torque, np.float64), self._plant.push.shape)
         if not np.isfinite(values).all():
@@ -189,11 +167,9 @@ class Simulation:
     def advance(self, command: ArrayLike) -> Measurement:
         """Hold a motor speed for one period and give the measurement at its end.
 
-        Parameters
-        ----------
-        command
-            rad/s, positive into the syringe, a number or shape (runs,); the motor follows within
-            its limits.
+        Args:
+            command: rad/s, positive into the syringe, a number or shape (runs,); the motor follows
+                within its limits.
         """
         self._hold(command)
         return self.measure()
@@ -220,15 +196,12 @@ class Simulation:
     def open_loop(self, commands: ArrayLike) -> tuple[Measurement, Truth]:
         """Run a whole sequence of commands, one a period.
 
-        Parameters
-        ----------
-        commands
-            Motor speeds, rad/s, shape (samples,) for all runs or (samples, runs).
+        Args:
+            commands: Motor speeds, rad/s, shape (samples,) for all runs or (samples, runs).
 
-        Returns
-        -------
-        Measurement, Truth
-            With a leading axis of samples; sample k is taken at the end of command k.
+        Returns:
+            Measurement, Truth: With a leading axis of samples; sample k is taken at the end of
+                command k.
         """
         sequence = np.asarray(commands, dtype=np.float64)
         if sequence.ndim not in (1, 2) or sequence.shape[0] == 0:

@@ -19,10 +19,8 @@ DURATION = 6.0
 def step_commands(plunger: float) -> Floats:
     """Return the motor speeds, rad/s, that push to a place of the plunger as fast as can be.
 
-    Parameters
-    ----------
-    plunger
-        Travel, m, > 0 and within the stroke.
+    Args:
+        plunger: Travel, m, > 0 and within the stroke.
     """
     check_positive(plunger=plunger)
     pump = PumpParameters()
@@ -38,14 +36,10 @@ def step_commands(plunger: float) -> Floats:
 def simulate_step_test(rig: RigParameters, plunger: float, *, runs: int, seed: int) -> StepTest:
     """Simulate a step and return what is true of it, without sensors, their noise and range.
 
-    Parameters
-    ----------
-    rig
-        Its parameters.
-    plunger
-        Travel of the plunger, m.
-    runs, seed
-        As of `Simulation`.
+    Args:
+        rig: Its parameters.
+        plunger: Travel of the plunger, m.
+        runs, seed: As of `Simulation`.
     """
     driven = Simulation(rig, runs=runs, seed=seed, period=PERIOD)
     _, truth = driven.open_loop(step_commands(plunger))
@@ -55,12 +49,9 @@ def simulate_step_test(rig: RigParameters, plunger: float, *, runs: int, seed: i
 def travel_to(rig: RigParameters, angle: float) -> float:
     """Return the travel of the plunger, m, with which the rig without spread ends at an angle, rad.
 
-    Parameters
-    ----------
-    rig
-        Its parameters.
-    angle
-        At the end of the test, rad, > 0, within what the stroke reaches.
+    Args:
+        rig: Its parameters.
+        angle: At the end of the test, rad, > 0, within what the stroke reaches.
     """
     alike = replace(rig, spread=Spread())
 

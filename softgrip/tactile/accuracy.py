@@ -19,20 +19,13 @@ from softgrip.errors import InvalidInputError
 class Accuracy:
     """Right answers among independent trials.
 
-    Attributes
-    ----------
-    correct
-        Number of right answers, 0 to `total`.
-    total
-        Number of trials, > 0.
+    Attributes:
+        correct: Number of right answers, 0 to `total`.
+        total: Number of trials, > 0.
 
-    Raises
-    ------
-    InvalidInputError
-        If the two are not such numbers.
+    Raises:
+        InvalidInputError: If the two are not such numbers.
 
-    Examples
-    --------
     >>> found = Accuracy(77, 80)
     >>> found.share
     0.9625
@@ -61,10 +54,8 @@ class Accuracy:
         It covers the true share with at least the confidence asked for, if the trials are
         independent. Contacts of one object are not quite: it is then too narrow.
 
-        Raises
-        ------
-        InvalidInputError
-            If the confidence is not between 0 and 1.
+        Raises:
+            InvalidInputError: If the confidence is not between 0 and 1.
         """
         if not 0 < confidence < 1:
             raise InvalidInputError("confidence", expected="a number in (0, 1)", got=confidence)
@@ -75,20 +66,13 @@ class Accuracy:
 def counts_behind(percent: str, total: int) -> tuple[int, ...]:
     """Return the numbers of right answers of which a printed percentage can be the rounding.
 
-    Parameters
-    ----------
-    percent
-        As printed, such as "96.83".
-    total
-        Number of trials, > 0.
+    Args:
+        percent: As printed, such as "96.83".
+        total: Number of trials, > 0.
 
-    Raises
-    ------
-    InvalidInputError
-        If there are no trials.
+    Raises:
+        InvalidInputError: If there are no trials.
 
-    Examples
-    --------
     >>> counts_behind("96.83", 126), counts_behind("96.83", 630), counts_behind("96.83", 504)
     ((122,), (610,), (488,))
     >>> counts_behind("96.43", 630)
@@ -107,18 +91,12 @@ def counts_behind(percent: str, total: int) -> tuple[int, ...]:
 class McNemar:
     """Trials that only one of two classifiers gets right.
 
-    Attributes
-    ----------
-    only_first, only_second
-        How many, >= 0.
+    Attributes:
+        only_first, only_second: How many, >= 0.
 
-    Raises
-    ------
-    InvalidInputError
-        If one is negative.
+    Raises:
+        InvalidInputError: If one is negative.
 
-    Examples
-    --------
     >>> McNemar(0, 3).p_value
     0.25
     """
@@ -144,15 +122,11 @@ class McNemar:
 def mcnemar(first_right: ArrayLike, second_right: ArrayLike) -> McNemar:
     """Compare two classifiers on the same trials.
 
-    Parameters
-    ----------
-    first_right, second_right
-        Whether each trial was classified rightly, booleans, shape (N,).
+    Args:
+        first_right, second_right: Whether each trial was classified rightly, booleans, shape (N,).
 
-    Raises
-    ------
-    InvalidInputError
-        If the two are not of one shape (N,).
+    Raises:
+        InvalidInputError: If the two are not of one shape (N,).
     """
     first: NDArray[np.bool_] = np.asarray(first_right, dtype=bool)
     second: NDArray[np.bool_] = np.asarray(second_right, dtype=bool)
@@ -167,20 +141,13 @@ def mcnemar(first_right: ArrayLike, second_right: ArrayLike) -> McNemar:
 def overlaps(first: int, second: int, total: int) -> list[McNemar]:
     """Return all that two numbers of right answers leave open, by what both get wrong.
 
-    Parameters
-    ----------
-    first, second
-        Right answers of the two classifiers, 0 to `total`.
-    total
-        Trials, the same for both.
+    Args:
+        first, second: Right answers of the two classifiers, 0 to `total`.
+        total: Trials, the same for both.
 
-    Raises
-    ------
-    InvalidInputError
-        If a number lies outside its range.
+    Raises:
+        InvalidInputError: If a number lies outside its range.
 
-    Examples
-    --------
     >>> [round(test.p_value, 3) for test in overlaps(74, 77, 80)]
     [0.508, 0.453, 0.375, 0.25]
     """

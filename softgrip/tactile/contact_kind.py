@@ -31,13 +31,9 @@ ESTIMATORS, SAMPLES, FEATURES = 25, 0.85, 7
 def one_hot(kinds: ArrayLike) -> Floats:
     """Code kinds as in Eq. (2.4), shape (N, 3).
 
-    Raises
-    ------
-    InvalidInputError
-        If there is another kind among them.
+    Raises:
+        InvalidInputError: If there is another kind among them.
 
-    Examples
-    --------
     >>> one_hot(["line", "point"])
     array([[0., 1., 0.],
            [1., 0., 0.]])
@@ -51,14 +47,11 @@ def one_hot(kinds: ArrayLike) -> Floats:
 def from_one_hot(codes: ArrayLike) -> NDArray[np.str_]:
     """Return the kinds of codes, shape (N,); the inverse of `one_hot`.
 
-    Raises
-    ------
-    InvalidInputError
-        If a row is not three numbers, one of them 1 and the others 0. Three classifiers that
-        vote on each entry alone can give such a row: neither point, nor line, nor surface.
+    Raises:
+        InvalidInputError: If a row is not three numbers, one of them 1 and the others 0. Three
+            classifiers that vote on each entry alone can give such a row: neither point, nor line,
+            nor surface.
 
-    Examples
-    --------
     >>> from_one_hot([[0, 0, 1]])
     array(['surface'], dtype='<U7')
     """
@@ -96,21 +89,15 @@ def bagged_neighbours(
 
     Its answer is the mean of the base classifiers' shares of votes, as in the text.
 
-    Parameters
-    ----------
-    k
-        Neighbours of a base classifier; the text does not give it, the single classifier's is 3.
-    estimators
-        Number of base classifiers.
-    samples
-        Share of the contacts that each is trained on, a float in (0, 1]; or their number, an int.
-    features
-        Number of elements that each sees, drawn without replacement.
-    replacement
-        Whether the contacts are drawn with replacement. The text does not say; bagging by
-        Breiman (1996) does.
-    seed
-        Of the draws.
+    Args:
+        k: Neighbours of a base classifier; the text does not give it, the single classifier's is 3.
+        estimators: Number of base classifiers.
+        samples: Share of the contacts that each is trained on, a float in (0, 1]; or their number,
+            an int.
+        features: Number of elements that each sees, drawn without replacement.
+        replacement: Whether the contacts are drawn with replacement. The text does not say; bagging
+            by Breiman (1996) does.
+        seed: Of the draws.
     """
     return _normalised(
         BaggingClassifier(

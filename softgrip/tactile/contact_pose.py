@@ -21,14 +21,10 @@ of drift is not taken for a touch."""
 class Moments(NamedTuple):
     """Moments of the responses that are felt.
 
-    Attributes
-    ----------
-    elements
-        How many are felt, shape (...).
-    middle
-        Centroid, m, shape (..., 2); NaN if none is felt.
-    spread
-        Second moments about it, m^2, shape (..., 2, 2).
+    Attributes:
+        elements: How many are felt, shape (...).
+        middle: Centroid, m, shape (..., 2); NaN if none is felt.
+        spread: Second moments about it, m^2, shape (..., 2, 2).
     """
 
     elements: NDArray[np.intp]
@@ -51,25 +47,17 @@ def moments(responses: ArrayLike, layout: PadLayout) -> Moments:
 def place(responses: ArrayLike, layout: PadLayout) -> Floats:
     """Return where the pad is touched, m from its middle.
 
-    Parameters
-    ----------
-    responses
-        Normalised, 0 to 1, shape (..., elements); those up to `FELT` count as none.
-    layout
-        Of the pad.
+    Args:
+        responses: Normalised, 0 to 1, shape (..., elements); those up to `FELT` count as none.
+        layout: Of the pad.
 
-    Returns
-    -------
-    Floats
-        Shape (..., 2), within the hull of the elements; NaN where nothing is felt.
+    Returns:
+        Floats: Shape (..., 2), within the hull of the elements; NaN where nothing is felt.
 
-    Raises
-    ------
-    InvalidInputError
-        If the number of channels is not the layout's, or a response is not between 0 and 1.
+    Raises:
+        InvalidInputError: If the number of channels is not the layout's, or a response is not
+            between 0 and 1.
 
-    Examples
-    --------
     Twice as strong on the right one of two elements that are 11 mm apart:
 
     >>> from softgrip.tactile.pad_layout import THREE_TWO_THREE
@@ -89,25 +77,17 @@ def line_angle(responses: ArrayLike, layout: PadLayout) -> Floats:
     With two elements it is that of their connection, whatever their responses: a line that is felt
     by two has one of few angles.
 
-    Parameters
-    ----------
-    responses
-        Normalised, 0 to 1, shape (..., elements); those up to `FELT` count as none.
-    layout
-        Of the pad.
+    Args:
+        responses: Normalised, 0 to 1, shape (..., elements); those up to `FELT` count as none.
+        layout: Of the pad.
 
-    Returns
-    -------
-    Floats
-        Shape (...); NaN where less than two elements are felt, or no direction is longer.
+    Returns:
+        Floats: Shape (...); NaN where less than two elements are felt, or no direction is longer.
 
-    Raises
-    ------
-    InvalidInputError
-        If the number of channels is not the layout's, or a response is not between 0 and 1.
+    Raises:
+        InvalidInputError: If the number of channels is not the layout's, or a response is not
+            between 0 and 1.
 
-    Examples
-    --------
     >>> from softgrip.tactile.pad_layout import THREE_TWO_THREE
     >>> float(line_angle([0.3, 0.5, 0.2, 0, 0, 0, 0, 0], THREE_TWO_THREE))
     0.0
@@ -125,8 +105,6 @@ def line_angle(responses: ArrayLike, layout: PadLayout) -> Floats:
 def angle_between(one: ArrayLike, other: ArrayLike) -> Floats:
     """Return the angle between lines, rad, 0 to pi/2: a line has no direction.
 
-    Examples
-    --------
     >>> from math import pi
     >>> round(float(angle_between(0.45 * pi, -0.45 * pi)) / pi, 9)
     0.1
@@ -140,15 +118,12 @@ def angle_between(one: ArrayLike, other: ArrayLike) -> Floats:
 class PlaceErrors:
     """Errors of contacts against their truth.
 
-    Attributes
-    ----------
-    elements
-        How many are felt, shape (N,).
-    place
-        Between estimate and truth, m, shape (N,): to the middle of a point or a surface, square to
-        a line, as no end of it is seen. NaN if nothing is felt.
-    angle
-        Between a line and its estimate, rad, shape (N,); NaN unless a line is felt by two or more.
+    Attributes:
+        elements: How many are felt, shape (N,).
+        place: Between estimate and truth, m, shape (N,): to the middle of a point or a surface,
+            square to a line, as no end of it is seen. NaN if nothing is felt.
+        angle: Between a line and its estimate, rad, shape (N,); NaN unless a line is felt by two or
+            more.
     """
 
     elements: NDArray[np.intp]

@@ -19,17 +19,12 @@ Strings = NDArray[np.str_]
 def check_responses(responses: ArrayLike, elements: int = ELEMENTS) -> Floats:
     """Return responses of the elements as floats; Eq. (2.3).
 
-    Parameters
-    ----------
-    responses
-        Normalised, 0 to 1, shape (..., elements).
-    elements
-        How many there are.
+    Args:
+        responses: Normalised, 0 to 1, shape (..., elements).
+        elements: How many there are.
 
-    Raises
-    ------
-    InvalidInputError
-        If the number of channels is another, or a value is not between 0 and 1.
+    Raises:
+        InvalidInputError: If the number of channels is another, or a value is not between 0 and 1.
     """
     found = np.asarray(responses, dtype=np.float64)
     if found.ndim < 1 or found.shape[-1] != elements:
@@ -48,30 +43,21 @@ def check_responses(responses: ArrayLike, elements: int = ELEMENTS) -> Floats:
 class Contacts:
     """N contacts, and what is known of them.
 
-    Attributes
-    ----------
-    responses
-        Of the elements, normalised: 0 at rest, 1 at full range, shape (N, 8); V of Eq. (2.3).
-    layer
-        Voltage of the force layer, V, shape (N,).
-    times
-        When they were felt, s, shape (N,).
-    kinds
-        "point", "line" or "surface", shape (N,); empty where it is not known.
-    objects
-        Names of what touched, shape (N,).
-    places
-        Middle of the contact from the middle of the pad, m, shape (N, 2).
-    angles
-        Of a line against the pad's length, rad, -pi/2 to pi/2, shape (N,); NaN unless a line.
-    forces
-        Contact force, N, > 0, shape (N,). Places, angles and forces are all NaN for contacts of a
-        pad that nobody knows the truth of.
+    Attributes:
+        responses: Of the elements, normalised: 0 at rest, 1 at full range, shape (N, 8); V of Eq.
+            (2.3).
+        layer: Voltage of the force layer, V, shape (N,).
+        times: When they were felt, s, shape (N,).
+        kinds: "point", "line" or "surface", shape (N,); empty where it is not known.
+        objects: Names of what touched, shape (N,).
+        places: Middle of the contact from the middle of the pad, m, shape (N, 2).
+        angles: Of a line against the pad's length, rad, -pi/2 to pi/2, shape (N,); NaN unless a
+            line.
+        forces: Contact force, N, > 0, shape (N,). Places, angles and forces are all NaN for
+            contacts of a pad that nobody knows the truth of.
 
-    Raises
-    ------
-    InvalidInputError
-        If a shape, kind or number is not as said.
+    Raises:
+        InvalidInputError: If a shape, kind or number is not as said.
     """
 
     responses: Floats

@@ -30,18 +30,13 @@ class LinearDrift:
     def from_weights(cls, calibrated: ArrayLike, now: ArrayLike) -> Self:
         """Fit the line by least squares.
 
-        Parameters
-        ----------
-        calibrated, now
-            Voltages of the same weights at the calibration and now, V, shape (N,), N >= 2.
+        Args:
+            calibrated, now: Voltages of the same weights at the calibration and now, V, shape (N,),
+                N >= 2.
 
-        Raises
-        ------
-        InvalidInputError
-            If the shapes differ, or the voltages now are all one.
+        Raises:
+            InvalidInputError: If the shapes differ, or the voltages now are all one.
 
-        Examples
-        --------
         >>> LinearDrift.from_weights([1.0, 2.0, 3.0], [1.5, 2.5, 3.5])
         LinearDrift(offset=-0.5, gain=1.0)
         """
@@ -74,12 +69,9 @@ class DriftBetween:
     def corrected(self, voltage: ArrayLike, share: ArrayLike) -> Floats:
         """Return what voltages would have been at the calibration.
 
-        Parameters
-        ----------
-        voltage
-            V, any shape.
-        share
-            Time since the first line by the time between the two, same shape.
+        Args:
+            voltage: V, any shape.
+            share: Time since the first line by the time between the two, same shape.
         """
         part = np.asarray(share, dtype=float)
         found: Floats = (1 - part) * self.start.corrected(voltage)

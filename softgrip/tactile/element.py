@@ -23,22 +23,15 @@ SHAPES: tuple[Shape, ...] = get_args(Shape)
 class Element:
     """A sensing element that stands on its base and is pressed on its flat top.
 
-    Attributes
-    ----------
-    shape
-        The pyramid is square, the others are round. A hemisphere whose height is not that of the
-        cut sphere is stretched upwards, into half a spheroid.
-    width
-        Of the base, m, > 0: a side of the square or a diameter.
-    height
-        From base to flat top, m, > 0.
-    cut
-        Width of the flat top as a part of the base's, 0 (sharp) to 1; always 1 for a cylinder.
+    Attributes:
+        shape: The pyramid is square, the others are round. A hemisphere whose height is not that of
+            the cut sphere is stretched upwards, into half a spheroid.
+        width: Of the base, m, > 0: a side of the square or a diameter.
+        height: From base to flat top, m, > 0.
+        cut: Width of the flat top as a part of the base's, 0 (sharp) to 1; always 1 for a cylinder.
 
-    Raises
-    ------
-    InvalidInputError
-        If one of these does not hold.
+    Raises:
+        InvalidInputError: If one of these does not hold.
     """
 
     shape: Shape
@@ -83,15 +76,10 @@ class Element:
 def cut_sphere(cut: float, radius: float = 3 * MM) -> Element:
     """Return a hemisphere of true spherical form whose top is cut off flat.
 
-    Parameters
-    ----------
-    cut
-        Radius of the flat top as a part of the sphere's, 0 to below 1.
-    radius
-        Of the sphere, m.
+    Args:
+        cut: Radius of the flat top as a part of the sphere's, 0 to below 1.
+        radius: Of the sphere, m.
 
-    Examples
-    --------
     >>> round(cut_sphere(0.6, radius=1.0).height, 12)
     0.8
     """
@@ -106,10 +94,8 @@ def cross_section(element: Element, y: Value) -> Value:
     The print gives a sharp pyramid, ``(w - w y / L)**2``, and for the hemisphere
     ``(w/2)**2 - y**2``, to which the factor pi is added here.
 
-    Raises
-    ------
-    InvalidInputError
-        If y is outside the element.
+    Raises:
+        InvalidInputError: If y is outside the element.
     """
     part = y / element.height
     if not np.all((part >= 0) & (part <= 1)):
@@ -133,8 +119,6 @@ def compliance(element: Element, young_modulus: float = STATED_MODULUS) -> float
     ``L / (E A)`` times 1 for a cylinder, ``1 / k`` for a pyramid,
     ``arcosh(1 / k) / sqrt(1 - k**2)`` for a hemisphere.
 
-    Examples
-    --------
     Table 2.1 in mm at 0.1 N, a pyramid whose top is 0.72 mm wide:
 
     >>> round(1e3 * 0.1 * compliance(Element("pyramid", cut=0.12), TABLE_MODULUS), 3)
@@ -157,19 +141,14 @@ def shortening(element: Element, force: Value, young_modulus: float = STATED_MOD
 
     It is linear: where it is no longer small beside the height, it is an extrapolation.
 
-    Parameters
-    ----------
-    element
-        With a flat top: cut > 0.
-    force
-        N, >= 0, float or array.
-    young_modulus
-        E, Pa.
+    Args:
+        element: With a flat top: cut > 0.
+        force: N, >= 0, float or array.
+        young_modulus: E, Pa.
 
-    Raises
-    ------
-    InvalidInputError
-        If the force is not, or the top is sharp, where any force shortens without limit.
+    Raises:
+        InvalidInputError: If the force is not, or the top is sharp, where any force shortens
+            without limit.
     """
     if not np.all(np.asarray(force) >= 0):
         raise InvalidInputError("force", expected="N, >= 0", got=force)

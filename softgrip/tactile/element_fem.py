@@ -99,12 +99,9 @@ RUBBER = Elastic(STATED_MODULUS, 0.49)
 class TopCompliance:
     """Displacement of the top along the force, by force, m/N.
 
-    Attributes
-    ----------
-    mean, largest
-        Of the top's points, where the force is spread evenly over the top.
-    plate
-        Where a rigid plate without friction presses.
+    Attributes:
+        mean, largest: Of the top's points, where the force is spread evenly over the top.
+        plate: Where a rigid plate without friction presses.
     """
 
     mean: float
@@ -116,14 +113,11 @@ class TopCompliance:
 class Solution:
     """A solved element.
 
-    Attributes
-    ----------
-    basis
-        Of scikit-fem; its points are (r, z) or (x, y, z), m, with z = 0 at the top.
-    displacement
-        Under 1 N spread evenly over the top, m/N, at the degrees of freedom of `basis`.
-    top
-        How the top gives way.
+    Attributes:
+        basis: Of scikit-fem; its points are (r, z) or (x, y, z), m, with z = 0 at the top.
+        displacement: Under 1 N spread evenly over the top, m/N, at the degrees of freedom of
+            `basis`.
+        top: How the top gives way.
     """
 
     basis: Any
@@ -134,19 +128,13 @@ class Solution:
 def solve(element: Element, divisions: int, material: Elastic = RUBBER) -> Solution:
     """Solve an element: a round one in r, z, a pyramid in x, y, z.
 
-    Parameters
-    ----------
-    element
-        With a flat top: cut > 0.
-    divisions
-        Finite elements along half the width and along the height, >= 1.
-    material
-        Its constants.
+    Args:
+        element: With a flat top: cut > 0.
+        divisions: Finite elements along half the width and along the height, >= 1.
+        material: Its constants.
 
-    Raises
-    ------
-    InvalidInputError
-        If the top is sharp, or there are no divisions.
+    Raises:
+        InvalidInputError: If the top is sharp, or there are no divisions.
     """
     if element.shape == "pyramid":
         return solve_body(element, divisions, material)
@@ -162,11 +150,10 @@ def solve_body(element: Element, divisions: int, material: Elastic = RUBBER) -> 
 def middle_section(solution: Solution) -> tuple[Floats, Floats]:
     """Return half the middle section of an element: where its points are and go to.
 
-    Returns
-    -------
-    tuple of ndarray
-        Position across and above the base, m, and displacement under 1 N, m/N, both of shape
-        (2, n + 1, n + 1) for n divisions: by layer from the base, then from the middle outwards.
+    Returns:
+        tuple of ndarray: Position across and above the base, m, and displacement under 1 N, m/N,
+            both of shape (2, n + 1, n + 1) for n divisions: by layer from the base, then from the
+            middle outwards.
     """
     mesh = solution.basis.mesh
     up = mesh.dim() - 1

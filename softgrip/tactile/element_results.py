@@ -89,15 +89,11 @@ KEPT = {
 def read(table: str) -> tuple[Solved, ...]:
     """Read ``data/tactile/element_<table>.csv``.
 
-    Parameters
-    ----------
-    table
-        "convergence", or "cut": elements 6 mm wide and 3 mm high with tops of all widths.
+    Args:
+        table: "convergence", or "cut": elements 6 mm wide and 3 mm high with tops of all widths.
 
-    Raises
-    ------
-    UnknownNameError
-        If it is none of these.
+    Raises:
+        UnknownNameError: If it is none of these.
     """
     if table not in TABLES:
         raise UnknownNameError("table", table, list(TABLES))
@@ -107,10 +103,8 @@ def read(table: str) -> tuple[Solved, ...]:
 def finest(element: Element) -> Solved:
     """Return the kept result of an element on its finest mesh.
 
-    Raises
-    ------
-    UnknownNameError
-        If it is none of `ASSUMED` and not `STATED_CYLINDER`.
+    Raises:
+        UnknownNameError: If it is none of `ASSUMED` and not `STATED_CYLINDER`.
     """
     rows = [row for row in read("convergence") if _same(row.element, element)]
     if not rows:
@@ -140,10 +134,8 @@ def largest_for(shape: Shape, cut: float) -> float:
 
     By straight lines in the logarithms, for E = 0.125 MPa.
 
-    Raises
-    ------
-    InvalidInputError
-        If the cut is outside the sweep, 0.05 to 0.9.
+    Raises:
+        InvalidInputError: If the cut is outside the sweep, 0.05 to 0.9.
     """
     cuts, soft = _curve(shape)
     return _between(cut, cuts, soft, "cut")
@@ -152,10 +144,8 @@ def largest_for(shape: Shape, cut: float) -> float:
 def cut_for(shape: Shape, largest: float, young_modulus: float = STATED_MODULUS) -> float:
     """Return the cut that gives a largest displacement by force, m/N: `largest_for` turned round.
 
-    Raises
-    ------
-    InvalidInputError
-        If no cut of the sweep gives it.
+    Raises:
+        InvalidInputError: If no cut of the sweep gives it.
     """
     cuts, soft = _curve(shape)
     given = largest * young_modulus / STATED_MODULUS

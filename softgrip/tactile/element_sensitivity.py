@@ -29,22 +29,14 @@ def resistance(
 ) -> Value:
     """Return the resistance of an element's skin, Ohm: ``at_rest / (1 - shortening / height)``.
 
-    Parameters
-    ----------
-    shortening
-        m, >= 0, float or array. From a third of the height on, the ceiling is returned.
-    height
-        Of the element without load, m.
-    at_rest, ceiling
-        Range of the resistance, Ohm, ceiling above at_rest.
+    Args:
+        shortening: m, >= 0, float or array. From a third of the height on, the ceiling is returned.
+        height: Of the element without load, m.
+        at_rest, ceiling: Range of the resistance, Ohm, ceiling above at_rest.
 
-    Raises
-    ------
-    InvalidInputError
-        If one of these does not hold.
+    Raises:
+        InvalidInputError: If one of these does not hold.
 
-    Examples
-    --------
     >>> round(resistance(0.5e-3)), round(resistance(2e-3))
     (1200000, 1500000)
     """
@@ -73,19 +65,13 @@ def least_force(
     The inverse of `resistance_under`. The ratio of two elements' forces depends neither on the
     modulus nor, while it is small, on the change.
 
-    Parameters
-    ----------
-    element
-        With a flat top, or with a sharp one, which feels any force: 0.
-    resistance_change
-        Ohm, > 0, up to the range of 0.5 MOhm.
-    young_modulus
-        E, Pa.
+    Args:
+        element: With a flat top, or with a sharp one, which feels any force: 0.
+        resistance_change: Ohm, > 0, up to the range of 0.5 MOhm.
+        young_modulus: E, Pa.
 
-    Raises
-    ------
-    InvalidInputError
-        If one of these does not hold.
+    Raises:
+        InvalidInputError: If one of these does not hold.
     """
     check_positive(resistance_change=resistance_change)
     if resistance_change > CEILING - AT_REST:
@@ -99,21 +85,14 @@ def least_force(
 def relative_compliance(shape: Shape, cut: float, equal: str = "width") -> float:
     """Return the compliance as a part of a cylinder's of equal height and modulus.
 
-    Parameters
-    ----------
-    shape, cut
-        As in `Element`; cut above 0.
-    equal
-        What the element shares with the cylinder: "width" of the base, "area" of the base, or
-        "volume".
+    Args:
+        shape, cut: As in `Element`; cut above 0.
+        equal: What the element shares with the cylinder: "width" of the base, "area" of the base,
+            or "volume".
 
-    Raises
-    ------
-    InvalidInputError
-        If one of these is not as said.
+    Raises:
+        InvalidInputError: If one of these is not as said.
 
-    Examples
-    --------
     >>> round(relative_compliance("pyramid", 0.5, equal="area"), 9)
     2.0
     """

@@ -20,16 +20,11 @@ NOTHING = "nothing"
 class Estimate:
     """What is told of N contacts.
 
-    Attributes
-    ----------
-    kinds
-        Shape (N,); `NOTHING` where no element feels anything.
-    places
-        m from the middle of the pad, shape (N, 2); NaN where nothing is felt.
-    angles
-        rad, shape (N,); NaN unless the kind is "line" and two elements or more feel it.
-    forces
-        N, shape (N,); NaN without a model of the force layer.
+    Attributes:
+        kinds: Shape (N,); `NOTHING` where no element feels anything.
+        places: m from the middle of the pad, shape (N, 2); NaN where nothing is felt.
+        angles: rad, shape (N,); NaN unless the kind is "line" and two elements or more feel it.
+        forces: N, shape (N,); NaN without a model of the force layer.
     """
 
     kinds: Strings
@@ -41,10 +36,8 @@ class Estimate:
 def kind_readings(contacts: Contacts) -> PadReadings:
     """Return the contacts whose kind is known, for a `PadModel` with `KindSettings`.
 
-    Raises
-    ------
-    InvalidInputError
-        If none is.
+    Raises:
+        InvalidInputError: If none is.
     """
     known = contacts.take(contacts.kinds != "")
     if not len(known):
@@ -64,24 +57,16 @@ def estimate(
 ) -> Estimate:
     """Tell kind, place, angle and force of contacts from responses and force layer alone.
 
-    Parameters
-    ----------
-    contacts
-        What is known of them is not looked at.
-    kind
-        Fitted to `kind_readings`, of this pad or of another one.
-    force
-        Fitted to known weights on this pad, `softgrip.logs.contacts.read_weights`; None if none
-        were put on it.
-    layout
-        Where the elements lie.
+    Args:
+        contacts: What is known of them is not looked at.
+        kind: Fitted to `kind_readings`, of this pad or of another one.
+        force: Fitted to known weights on this pad, `softgrip.logs.contacts.read_weights`; None if
+            none were put on it.
+        layout: Where the elements lie.
 
-    Raises
-    ------
-    sklearn.exceptions.NotFittedError
-        If a model is not fitted.
-    InvalidInputError
-        If a model is of another pad's channels.
+    Raises:
+        sklearn.exceptions.NotFittedError: If a model is not fitted.
+        InvalidInputError: If a model is of another pad's channels.
     """
     found = moments(contacts.responses, layout)
     kinds = np.where(found.elements > 0, kind.predict(contacts.responses), NOTHING)

@@ -24,23 +24,15 @@ CLOSE = 1e-12
 class FastKind:
     """A fitted `contact_kind.bagged_neighbours`, for one reading at a time.
 
-    Attributes
-    ----------
-    classes
-        Kinds in scikit-learn's order, shape (K,).
-    scale, offset
-        Of each element, to bring its response to 0-1, shape (C,).
-    features
-        Elements that each base classifier sees, shape (F, B, 1).
-    contacts
-        Responses that they were trained on, shape (F, B, N).
-    votes
-        Kinds of these, one-hot, shape (B, N, K).
-    k
-        Neighbours that vote.
-    trees
-        The base classifiers' search trees. Which of several contacts at one distance votes is
-        decided by the order of the tree; where that matters, the tree is asked.
+    Attributes:
+        classes: Kinds in scikit-learn's order, shape (K,).
+        scale, offset: Of each element, to bring its response to 0-1, shape (C,).
+        features: Elements that each base classifier sees, shape (F, B, 1).
+        contacts: Responses that they were trained on, shape (F, B, N).
+        votes: Kinds of these, one-hot, shape (B, N, K).
+        k: Neighbours that vote.
+        trees: The base classifiers' search trees. Which of several contacts at one distance votes
+            is decided by the order of the tree; where that matters, the tree is asked.
     """
 
     classes: NDArray[Any]
@@ -56,10 +48,8 @@ class FastKind:
     def from_fitted(cls, model: Pipeline) -> "FastKind":
         """Compile a fitted bagging classifier.
 
-        Raises
-        ------
-        sklearn.exceptions.NotFittedError
-            If it is not fitted.
+        Raises:
+            sklearn.exceptions.NotFittedError: If it is not fitted.
         """
         check_is_fitted(model)
         scaler, bagging = model[0], model[-1]
@@ -82,10 +72,9 @@ class FastKind:
     def predict_proba(self, response: ArrayLike) -> Floats:
         """Return the share of each kind, shape (K,), for one reading, shape (C,).
 
-        Raises
-        ------
-        InvalidInputError
-            If the reading does not have the model's number of elements, or is not finite.
+        Raises:
+            InvalidInputError: If the reading does not have the model's number of elements, or is
+                not finite.
         """
         given = np.asarray(response, dtype=np.float64)
         if given.shape != self.scale.shape or not np.isfinite(given).all():

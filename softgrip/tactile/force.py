@@ -25,19 +25,14 @@ SET = (1, 2, 5, 10, 20, 50, 70)
 class Weighing:
     """An object measured several times.
 
-    Attributes
-    ----------
-    measured, deviation
-        Mean, and standard deviation of one measurement; any unit.
-    true
-        What a scale says, > 0, same unit.
-    times
-        Number of measurements, >= 2.
+    Attributes:
+        measured, deviation: Mean, and standard deviation of one measurement; any unit.
+        true: What a scale says, > 0, same unit.
+        times: Number of measurements, >= 2.
 
-    Raises
-    ------
-    InvalidInputError
-        If the true weight is not above zero, a deviation below, or the times fewer than two.
+    Raises:
+        InvalidInputError: If the true weight is not above zero, a deviation below, or the times
+            fewer than two.
     """
 
     measured: float
@@ -79,10 +74,9 @@ class Weighing:
     def bias_p(self) -> float:
         """Two-sided p of Student's test that the mean is the true weight.
 
-        Raises
-        ------
-        InvalidInputError
-            If the deviation is zero: there is then nothing to hold the bias against.
+        Raises:
+            InvalidInputError: If the deviation is zero: there is then nothing to hold the bias
+                against.
         """
         if self.deviation == 0:
             raise InvalidInputError("deviation", expected="a number > 0", got=0)

@@ -31,10 +31,8 @@ def regressors(seed: int = 0) -> dict[str, Any]:
     neighbours, 1 to 10, and the bandwidth are chosen on the training points alone. The last one
     is ours: it has no setting, and knows only that more force never gives less voltage.
 
-    Parameters
-    ----------
-    seed
-        Of the network's first weights and of the splits by which neighbours are chosen.
+    Args:
+        seed: Of the network's first weights and of the splits by which neighbours are chosen.
     """
     network = MLPRegressor(
         hidden_layer_sizes=(NEURONS,),
@@ -67,18 +65,13 @@ def cross_validated(
 ) -> Floats:
     """Return what a model, trained without it, says of each point, N, shape (points,).
 
-    Parameters
-    ----------
-    model
-        Regressor of scikit-learn; left unfitted.
-    voltage, force
-        V and N, shapes (points,).
-    groups
-        Labels, shape (points,): one group at a time is left out, such as all points of a weight.
-        None for `FOLDS` folds drawn at random, in which the other measurements of a weight
-        mostly stay in the training.
-    seed
-        Of that draw.
+    Args:
+        model: Regressor of scikit-learn; left unfitted.
+        voltage, force: V and N, shapes (points,).
+        groups: Labels, shape (points,): one group at a time is left out, such as all points of a
+            weight. None for `FOLDS` folds drawn at random, in which the other measurements of a
+            weight mostly stay in the training.
+        seed: Of that draw.
     """
     split = KFold(FOLDS, shuffle=True, random_state=seed) if groups is None else LeaveOneGroupOut()
     found: Floats = cross_val_predict(

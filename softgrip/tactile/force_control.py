@@ -30,27 +30,17 @@ def tuned_gains(stiffness: float, lag: float, delay: float) -> Gains:
     as slow as the delay, his choice for tight yet robust control. His integral, against loads that
     come and go, is left out.
 
-    Parameters
-    ----------
-    stiffness
-        k, N/m, > 0: of the stiffest contact that is to be met.
-    lag
-        Of the gripper, s, > 0.
-    delay
-        s, > 0, with half a period for the hold.
+    Args:
+        stiffness: k, N/m, > 0: of the stiffest contact that is to be met.
+        lag: Of the gripper, s, > 0.
+        delay: s, > 0, with half a period for the hold.
 
-    Returns
-    -------
-    Gains
-        kp in m/s per N, kd in m per N.
+    Returns:
+        Gains: kp in m/s per N, kd in m per N.
 
-    Raises
-    ------
-    InvalidInputError
-        If an argument is not above zero.
+    Raises:
+        InvalidInputError: If an argument is not above zero.
 
-    Examples
-    --------
     >>> tuned_gains(200.0, 0.03, 0.05).kp
     0.05
     """
@@ -68,10 +58,8 @@ def largest_loop_gain(lag: float, period: float = PERIOD) -> float:
     is stable for ``G < 1 - (1 - a) D - D^2``, G and D being (1 - a) k times kp and d: no
     derivative that is not negative allows more than G < 1.
 
-    Raises
-    ------
-    InvalidInputError
-        If an argument is not above zero.
+    Raises:
+        InvalidInputError: If an argument is not above zero.
     """
     check_positive(lag=lag, period=period)
     return 1 / (1 - exp(-period / lag))
@@ -81,21 +69,15 @@ def largest_loop_gain(lag: float, period: float = PERIOD) -> float:
 class ForceController:
     """A PD controller on the force error whose output closes a gripper.
 
-    Parameters
-    ----------
-    gains
-        For a change: m/s per N, m per N. For a position: m per N, m s per N. Without integral.
-    command
-        What the output of the PD controller is taken for.
-    speed
-        Largest speed that a change asks for, m/s, > 0.
-    period
-        s, > 0.
+    Args:
+        gains: For a change: m/s per N, m per N. For a position: m per N, m s per N. Without
+            integral.
+        command: What the output of the PD controller is taken for.
+        speed: Largest speed that a change asks for, m/s, > 0.
+        period: s, > 0.
 
-    Raises
-    ------
-    InvalidInputError
-        If the gains have an integral, or another argument is outside its range.
+    Raises:
+        InvalidInputError: If the gains have an integral, or another argument is outside its range.
     """
 
     def __init__(

@@ -21,20 +21,15 @@ from softgrip.reads import remembered
 def contact_force(lift_force: Value, friction: float) -> Value:
     """Return the force with which each of two fingers must press, N: Eq. (2.8).
 
-    Parameters
-    ----------
-    lift_force
-        What the fingers are to bear by friction, N, any shape; it should exceed the weight.
-    friction
-        Coefficient of Coulomb's law between finger and object, > 0, the same for both fingers.
+    Args:
+        lift_force: What the fingers are to bear by friction, N, any shape; it should exceed the
+            weight.
+        friction: Coefficient of Coulomb's law between finger and object, > 0, the same for both
+            fingers.
 
-    Raises
-    ------
-    InvalidInputError
-        If the coefficient is not above zero.
+    Raises:
+        InvalidInputError: If the coefficient is not above zero.
 
-    Examples
-    --------
     >>> contact_force(0.6, friction=1.0)
     0.3
     """
@@ -54,22 +49,14 @@ def holding_probability(lift_force: float, weight: float, friction: float, error
     The sensor says that the grip lifts `lift_force`; the true contact force deviates from what it
     says by a normal error. The object is held if the true lift force is at least its weight.
 
-    Parameters
-    ----------
-    lift_force, weight
-        N.
-    friction
-        As of `contact_force`.
-    error
-        Deviation of the measured contact force, N, > 0.
+    Args:
+        lift_force, weight: N.
+        friction: As of `contact_force`.
+        error: Deviation of the measured contact force, N, > 0.
 
-    Raises
-    ------
-    InvalidInputError
-        If friction or error is not above zero, or the weight is below it.
+    Raises:
+        InvalidInputError: If friction or error is not above zero, or the weight is below it.
 
-    Examples
-    --------
     A lift force that is the weight holds every second time, whatever the sensor.
 
     >>> holding_probability(0.6, 0.6, friction=1.0, error=0.015)
@@ -100,13 +87,9 @@ class Interval:
     def of_print(cls, text: str) -> Self:
         """Return the numbers >= 0 that are printed so when rounded to the same place.
 
-        Raises
-        ------
-        InvalidInputError
-            If the text is no number >= 0.
+        Raises:
+            InvalidInputError: If the text is no number >= 0.
 
-        Examples
-        --------
         >>> Interval.of_print("0.09"), Interval.of_print("0.3")
         (Interval(low=0.085, high=0.095), Interval(low=0.25, high=0.35))
         """
@@ -132,18 +115,12 @@ def friction_interval(contact_force: Interval, lift_force: Interval) -> Interval
     The same function gives, for a weight in the place of the lift force, the coefficient that the
     friction must exceed for the weight to be held.
 
-    Parameters
-    ----------
-    contact_force, lift_force
-        N; the contact force lies wholly above zero.
+    Args:
+        contact_force, lift_force: N; the contact force lies wholly above zero.
 
-    Raises
-    ------
-    InvalidInputError
-        If the contact force may be zero.
+    Raises:
+        InvalidInputError: If the contact force may be zero.
 
-    Examples
-    --------
     >>> found = friction_interval(Interval.of_print("0.09"), Interval.of_print("0.19"))
     >>> round(found.low, 3), round(found.high, 3)  # 0.185 / 0.19, 0.195 / 0.17
     (0.974, 1.147)
@@ -168,14 +145,10 @@ def intersection(intervals: Iterable[Interval]) -> Interval | None:
 class PrintedGrasp:
     """What Section 2.4 prints of a grasp, as strings in N.
 
-    Attributes
-    ----------
-    contact
-        Desired contact force.
-    lift
-        Estimated lift force.
-    weight
-        Of the object.
+    Attributes:
+        contact: Desired contact force.
+        lift: Estimated lift force.
+        weight: Of the object.
     """
 
     contact: str

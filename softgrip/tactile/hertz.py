@@ -21,24 +21,15 @@ def hertz_approach(
     the right side is not a length. Valid while d is small beside R: the body below the contact is
     taken as a half space.
 
-    Parameters
-    ----------
-    force
-        F, N, >= 0, float or array.
-    radius
-        R of the hemisphere (w in the print), m.
-    young_modulus, poisson_ratio
-        E, Pa, > 0; nu, above -1 and up to 0.5.
-    exponent
-        1 is what is printed.
+    Args:
+        force: F, N, >= 0, float or array.
+        radius: R of the hemisphere (w in the print), m.
+        young_modulus, poisson_ratio: E, Pa, > 0; nu, above -1 and up to 0.5.
+        exponent: 1 is what is printed.
 
-    Raises
-    ------
-    InvalidInputError
-        If one of these does not hold.
+    Raises:
+        InvalidInputError: If one of these does not hold.
 
-    Examples
-    --------
     The row of Table 2.1, mm, comes out with 0.1 MPa:
 
     >>> np.round(hertz_approach(np.array([0.1, 0.2, 0.3]), young_modulus=0.1e6) / MM, 3)

@@ -58,10 +58,8 @@ def blocks(count: int, width: int) -> Iterator[slice]:
 def scaled_squares(queries: Floats, points: Floats, bandwidth: float) -> Floats:
     """Return squared distances by the squared bandwidth, shape (queries, points).
 
-    Raises
-    ------
-    InvalidInputError
-        If one is too large for a floating-point number.
+    Raises:
+        InvalidInputError: If one is too large for a floating-point number.
     """
     # Squared last: a bandwidth of 1e-200 has no square.
     with np.errstate(over="ignore"):
@@ -76,16 +74,11 @@ def exact_average(
 ) -> Floats:
     """Return the averages of Eq. (2.6) as it stands, block by block.
 
-    Parameters
-    ----------
-    queries, points
-        Shapes (queries, features) and (points, features).
-    targets
-        Shape (points,).
-    bandwidth
-        sigma, > 0, unit of the features.
-    kernel
-        A key of `KERNELS`.
+    Args:
+        queries, points: Shapes (queries, features) and (points, features).
+        targets: Shape (points,).
+        bandwidth: sigma, > 0, unit of the features.
+        kernel: A key of `KERNELS`.
     """
     found = np.empty(len(queries))
     for rows in blocks(len(queries), len(points)):
@@ -195,8 +188,6 @@ def fast_average(queries: Floats, points: Floats, targets: Floats, bandwidth: fl
     Where the exact sums are less work, and for queries farther than `MARGIN` bandwidths beyond
     all points, it takes those.
 
-    Examples
-    --------
     >>> x = np.linspace(0, 1, 69)
     >>> new = np.linspace(0, 1, 100_001)
     >>> fast = fast_average(new, x, x**2, 0.02)

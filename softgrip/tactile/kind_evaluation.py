@@ -35,8 +35,6 @@ def train_and_test(
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Split contacts at random, with the kinds' shares kept: indices to train and to test on.
 
-    Examples
-    --------
     >>> train, test = train_and_test(["point", "line", "surface"] * 210, seed=0)
     >>> train.size, test.size
     (504, 126)
@@ -53,18 +51,12 @@ def cross_validated(
 ) -> Right:
     """Tell which contacts are right when each fold is left out in turn, at random.
 
-    Parameters
-    ----------
-    model
-        A classifier of scikit-learn; a copy is fitted.
-    responses
-        Shape (N, elements).
-    kinds
-        Shape (N,).
-    seed
-        Of the folds.
-    folds
-        Their number, >= 2.
+    Args:
+        model: A classifier of scikit-learn; a copy is fitted.
+        responses: Shape (N, elements).
+        kinds: Shape (N,).
+        seed: Of the folds.
+        folds: Their number, >= 2.
     """
     labels = np.asarray(kinds)
     parts = StratifiedKFold(folds, shuffle=True, random_state=seed)
@@ -76,17 +68,12 @@ def cross_validated_by_object(
 ) -> Right:
     """Tell which contacts are right when each *object* is left out in turn.
 
-    Parameters
-    ----------
-    model, responses, kinds
-        As in `cross_validated`.
-    objects
-        What touched the pad, shape (N,); at least two objects.
+    Args:
+        model, responses, kinds: As in `cross_validated`.
+        objects: What touched the pad, shape (N,); at least two objects.
 
-    Raises
-    ------
-    InvalidInputError
-        If all contacts are of one object.
+    Raises:
+        InvalidInputError: If all contacts are of one object.
     """
     labels, groups = np.asarray(kinds), np.asarray(objects)
     count = np.unique(groups).size
@@ -113,13 +100,10 @@ def right_on_new(
 class SplitScore:
     """What Section 2.3 reports of a classifier, from one split.
 
-    Attributes
-    ----------
-    cross_validated
-        On the 80 % that it is trained on: the text's training accuracy. A contact is never among
-        those that it is compared with.
-    tested
-        On the other 20 %.
+    Attributes:
+        cross_validated: On the 80 % that it is trained on: the text's training accuracy. A contact
+            is never among those that it is compared with.
+        tested: On the other 20 %.
     """
 
     cross_validated: Accuracy
@@ -129,12 +113,9 @@ class SplitScore:
 def split_score(model: Any, responses: ArrayLike, kinds: ArrayLike, *, seed: int) -> SplitScore:
     """Split contacts in two, cross-validate on the larger part, test on the other.
 
-    Parameters
-    ----------
-    model, responses, kinds
-        As in `cross_validated`.
-    seed
-        Of the split and of the folds.
+    Args:
+        model, responses, kinds: As in `cross_validated`.
+        seed: Of the split and of the folds.
     """
     x, y = np.asarray(responses), np.asarray(kinds)
     train, test = train_and_test(y, seed=seed)

@@ -38,26 +38,17 @@ def left_out(
 
     No fit is repeated; work grows with the square of the points, memory does not.
 
-    Parameters
-    ----------
-    points, targets
-        Shapes (points, features) and (points,).
-    bandwidth
-        sigma, > 0, unit of the features.
-    kernel
-        A key of `KERNELS`.
-    groups
-        Labels, shape (points,): all points of its group are left out with a point. Where each
-        weight is measured three times, leaving out one of the three asks for no more than an
-        average of the other two.
+    Args:
+        points, targets: Shapes (points, features) and (points,).
+        bandwidth: sigma, > 0, unit of the features.
+        kernel: A key of `KERNELS`.
+        groups: Labels, shape (points,): all points of its group are left out with a point. Where
+            each weight is measured three times, leaving out one of the three asks for no more than
+            an average of the other two.
 
-    Raises
-    ------
-    InvalidInputError
-        If nothing would be left.
+    Raises:
+        InvalidInputError: If nothing would be left.
 
-    Examples
-    --------
     >>> left_out(np.array([[0.0], [1.0], [3.0]]), np.array([0.0, 1.0, 3.0]), 0.1).round(9)
     array([1., 0., 1.])
     """
@@ -88,10 +79,8 @@ def left_out_error(
 def tried_bandwidths(points: Floats) -> Floats:
     """Return the bandwidths that `best_bandwidth` tries, in equal ratios.
 
-    Raises
-    ------
-    InvalidInputError
-        If all points are one.
+    Raises:
+        InvalidInputError: If all points are one.
     """
     diameter = float(np.linalg.norm(np.ptp(points, axis=0)))
     if not diameter > 0:
@@ -122,27 +111,19 @@ class NadarayaWatson(RegressorMixin, BaseEstimator):  # type: ignore[misc]
     over the data, f_n their forces. The sigma of Eq. (2.7) is called a covariance; it is a length
     in the unit of the features.
 
-    Parameters
-    ----------
-    bandwidth
-        sigma, > 0, one for all features; None chooses it by leaving out one point at a time.
-    kernel
-        "gaussian", Eq. (2.7), or "epanechnikov", which ends at one bandwidth.
+    Args:
+        bandwidth: sigma, > 0, one for all features; None chooses it by leaving out one point at a
+            time.
+        kernel: "gaussian", Eq. (2.7), or "epanechnikov", which ends at one bandwidth.
 
-    Attributes
-    ----------
-    bandwidth_
-        The sigma that is used.
+    Attributes:
+        bandwidth_: The sigma that is used.
 
-    Notes
-    -----
     Far from all data the Gaussian weights underflow and Eq. (2.6) is 0/0 as it stands. They are
     taken relative to that of the nearest point, so that the prediction tends to its target; beyond
     the ends of the data it never leaves their range. With one feature, a Gaussian kernel and many
     queries, they are answered by `fast_average`, to 4e-13 of the range of the targets.
 
-    Examples
-    --------
     >>> model = NadarayaWatson(bandwidth=0.1).fit([[0.0], [1.0], [2.0]], [0.0, 0.3, 0.7])
     >>> model.predict([[1.0], [1.5], [1e6]]).round(9).tolist()
     [0.3, 0.5, 0.7]
@@ -155,15 +136,11 @@ class NadarayaWatson(RegressorMixin, BaseEstimator):  # type: ignore[misc]
     def fit(self, X: ArrayLike, y: ArrayLike) -> Self:
         """Keep data of Eq. (2.5), targets that are g of the points and noise; choose the bandwidth.
 
-        Parameters
-        ----------
-        X, y
-            Shapes (points, features) and (points,), finite.
+        Args:
+            X, y: Shapes (points, features) and (points,), finite.
 
-        Raises
-        ------
-        InvalidInputError
-            If the bandwidth is not above zero or the kernel is unknown.
+        Raises:
+            InvalidInputError: If the bandwidth is not above zero or the kernel is unknown.
         """
         points: Floats
         points, y = validate_data(self, X, y, dtype=np.float64, y_numeric=True)

@@ -28,19 +28,13 @@ Labels = NDArray[np.str_] | Floats
 class PadReadings:
     """N labelled readings of a pad with C channels.
 
-    Attributes
-    ----------
-    channels
-        Names, C of them, all different.
-    voltages
-        V, finite, shape (N, C).
-    labels
-        Kinds of contact as strings, or forces [N] as finite numbers, shape (N,).
+    Attributes:
+        channels: Names, C of them, all different.
+        voltages: V, finite, shape (N, C).
+        labels: Kinds of contact as strings, or forces [N] as finite numbers, shape (N,).
 
-    Raises
-    ------
-    InvalidInputError
-        If a shape or a number is not as said.
+    Raises:
+        InvalidInputError: If a shape or a number is not as said.
     """
 
     channels: tuple[str, ...]
@@ -84,23 +78,16 @@ def read_readings(
 ) -> PadReadings:
     """Read a CSV of voltages and labels.
 
-    Parameters
-    ----------
-    path
-        Of the file; its first line that is no comment names the columns.
-    label
-        The column of kinds or weights.
-    channels
-        The columns of voltages, V; all others than the label if none are named.
-    unit
-        Newtons of one unit of the label, such as ``softgrip.units.GRAM_FORCE``; labels are
-        strings without it.
+    Args:
+        path: Of the file; its first line that is no comment names the columns.
+        label: The column of kinds or weights.
+        channels: The columns of voltages, V; all others than the label if none are named.
+        unit: Newtons of one unit of the label, such as ``softgrip.units.GRAM_FORCE``; labels are
+            strings without it.
 
-    Raises
-    ------
-    DataFileError
-        If there is no such file or column, a row has more or fewer cells than there are columns,
-        or a cell is no finite number; names the line.
+    Raises:
+        DataFileError: If there is no such file or column, a row has more or fewer cells than there
+            are columns, or a cell is no finite number; names the line.
     """
     file = Path(path)
     if not file.is_file():

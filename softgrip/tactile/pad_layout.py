@@ -18,15 +18,12 @@ ELEMENT_SIDE = 6 * MM
 class PadLayout:
     """Places of the elements, from the middle of the pad.
 
-    Attributes
-    ----------
-    places
-        Middles of the elements, m, shape (n, 2): along the length, along the width.
+    Attributes:
+        places: Middles of the elements, m, shape (n, 2): along the length, along the width.
 
-    Raises
-    ------
-    InvalidInputError
-        If these are not two or more distinct finite places that leave room between the elements.
+    Raises:
+        InvalidInputError: If these are not two or more distinct finite places that leave room
+            between the elements.
     """
 
     places: Floats = field(repr=False)
@@ -54,15 +51,10 @@ class PadLayout:
 def rows(counts: tuple[int, ...], pitch: float, row_pitch: float) -> PadLayout:
     """Return a layout of rows, each about the middle, that of the largest width first.
 
-    Parameters
-    ----------
-    counts
-        Elements of each row.
-    pitch, row_pitch
-        Between neighbours in a row, and between rows, m.
+    Args:
+        counts: Elements of each row.
+        pitch, row_pitch: Between neighbours in a row, and between rows, m.
 
-    Examples
-    --------
     >>> (rows((2, 1), 0.010, 0.008).places / MM).tolist()
     [[-5.0, 4.0], [5.0, 4.0], [0.0, -4.0]]
     """

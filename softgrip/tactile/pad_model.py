@@ -37,13 +37,10 @@ LEAST_DRAWN = 10
 class KindSettings:
     """How kinds are told apart.
 
-    Attributes
-    ----------
-    estimators
-        Base classifiers of the bagging classifier, each without one of the channels; 0 for a
-        single classifier.
-    neighbours, samples, seed
-        As in `contact_kind.bagged_neighbours`.
+    Attributes:
+        estimators: Base classifiers of the bagging classifier, each without one of the channels; 0
+            for a single classifier.
+        neighbours, samples, seed: As in `contact_kind.bagged_neighbours`.
     """
 
     estimators: int = ESTIMATORS
@@ -54,11 +51,9 @@ class KindSettings:
     def build(self, readings: PadReadings) -> Any:
         """Return the classifier, not fitted, for some readings.
 
-        Raises
-        ------
-        InvalidInputError
-            If the readings' labels are numbers, or fewer than two kinds, or too few
-            readings.
+        Raises:
+            InvalidInputError: If the readings' labels are numbers, or fewer than two kinds, or too
+                few readings.
         """
         labels = readings.labels
         kinds = sorted(set(map(str, labels)))
@@ -85,11 +80,9 @@ class KindSettings:
 class ForceSettings:
     """How forces are read.
 
-    Attributes
-    ----------
-    bandwidth
-        Of `nadaraya_watson.NadarayaWatson`, in parts of each channel's range; None to choose it
-        by leaving one reading out at a time.
+    Attributes:
+        bandwidth: Of `nadaraya_watson.NadarayaWatson`, in parts of each channel's range; None to
+            choose it by leaving one reading out at a time.
     """
 
     bandwidth: float | None = None
@@ -97,10 +90,8 @@ class ForceSettings:
     def build(self, readings: PadReadings) -> Any:
         """Return the regressor, not fitted, for some readings.
 
-        Raises
-        ------
-        InvalidInputError
-            If the readings' labels are not forces, or all one.
+        Raises:
+            InvalidInputError: If the readings' labels are not forces, or all one.
         """
         labels = readings.labels
         if labels.dtype.kind != "f" or np.unique(labels).size < 2:
@@ -120,15 +111,10 @@ TOP_COUNT = 5.0 * 1023 / 1024
 class PadModel:
     """A pad's model: `fit` to labelled readings, then `predict` from voltages.
 
-    Parameters
-    ----------
-    settings
-        `KindSettings` or `ForceSettings`.
-    saturation
-        V: a channel that reaches it may have been cut off, and is refused.
+    Args:
+        settings: `KindSettings` or `ForceSettings`.
+        saturation: V: a channel that reaches it may have been cut off, and is refused.
 
-    Examples
-    --------
     >>> from softgrip.tactile.pad_model import KindSettings
     >>> at_rest, pressed = [0.1, 0.1], [0.8, 0.1]
     >>> mine = PadReadings(
@@ -147,10 +133,9 @@ class PadModel:
     def fit(self, readings: PadReadings) -> Self:
         """Fit to labelled readings.
 
-        Raises
-        ------
-        InvalidInputError
-            If a channel is saturated, or the settings cannot be used with these labels.
+        Raises:
+            InvalidInputError: If a channel is saturated, or the settings cannot be used with these
+                labels.
         """
         checked = self._checked(readings.voltages, readings.channels)
         estimator = self.settings.build(readings)
@@ -170,13 +155,10 @@ class PadModel:
     def predict(self, voltages: ArrayLike) -> Labels:
         """Return kinds, or forces [N], shape (N,), from voltages [V], shape (N, C).
 
-        Raises
-        ------
-        sklearn.exceptions.NotFittedError
-            If the model was not fitted.
-        InvalidInputError
-            If there are more or fewer channels than were fitted, a voltage is not finite, or a
-            channel is saturated.
+        Raises:
+            sklearn.exceptions.NotFittedError: If the model was not fitted.
+            InvalidInputError: If there are more or fewer channels than were fitted, a voltage is
+                not finite, or a channel is saturated.
         """
         readings, estimator = self._state()
         found: Labels = estimator.predict(self._checked(voltages, readings.channels))
@@ -220,10 +202,8 @@ TASKS: dict[str, type[Settings]] = {"kind": KindSettings, "force": ForceSettings
 def save(model: PadModel, path: Path | str) -> None:
     """Write a fitted model.
 
-    Raises
-    ------
-    sklearn.exceptions.NotFittedError
-        If it is not fitted.
+    Raises:
+        sklearn.exceptions.NotFittedError: If it is not fitted.
     """
     readings = model.readings
     task = next(name for name, kind in TASKS.items() if isinstance(model.settings, kind))
@@ -244,11 +224,9 @@ def save(model: PadModel, path: Path | str) -> None:
 def load(path: Path | str) -> PadModel:
     """Read a model and fit it anew.
 
-    Raises
-    ------
-    DataFileError
-        If the file is no such model, is of another version, holds what no model can be fitted
-        to, or the model answers otherwise than when it was saved.
+    Raises:
+        DataFileError: If the file is no such model, is of another version, holds what no model can
+            be fitted to, or the model answers otherwise than when it was saved.
     """
     file = Path(path)
     if not file.is_file():

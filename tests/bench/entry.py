@@ -13,24 +13,16 @@ import numpy as np
 class Entry:
     """One line of the bench.
 
-    Attributes
-    ----------
-    name
-        What was measured.
-    value
-        What came out.
-    unit
-        Of the value and the baseline.
-    baseline
-        What the value is held against, measured in the same run or named in the note; or None.
-    ratio
-        Baseline over value; None without a baseline.
-    wanted
-        What is wanted, in words.
-    met
-        Whether it is; None where nothing is wanted.
-    note
-        How it was measured.
+    Attributes:
+        name: What was measured.
+        value: What came out.
+        unit: Of the value and the baseline.
+        baseline: What the value is held against, measured in the same run or named in the note; or
+            None.
+        ratio: Baseline over value; None without a baseline.
+        wanted: What is wanted, in words.
+        met: Whether it is; None where nothing is wanted.
+        note: How it was measured.
     """
 
     name: str

@@ -27,12 +27,10 @@ STEPS_A_COUNT = 40
 class Host:
     """The other end of an emulated board's line.
 
-    Attributes
-    ----------
-    board
-        At the other end.
-    closed
-        Whether the pressure rises as the plunger goes in; else it is what a test puts there.
+    Attributes:
+        board: At the other end.
+        closed: Whether the pressure rises as the plunger goes in; else it is what a test puts
+            there.
     """
 
     def __init__(self, board: EmulatedBoard, *, closed: bool = True) -> None:

@@ -29,12 +29,10 @@ class EmulatedBoard:
 
     Times are virtual and count from its making; a power cycle does not set them back.
 
-    Parameters
-    ----------
-    set_up, valve
-        What the firmware is built for.
-    position
-        Of the plunger at the start, steps from the home switch, positive into the syringe.
+    Args:
+        set_up, valve: What the firmware is built for.
+        position: Of the plunger at the start, steps from the home switch, positive into the
+            syringe.
     """
 
     def __init__(

@@ -79,10 +79,8 @@ def _core() -> Path:
 def firmware(set_up: SetUp = SetUp.GRIPPER, *, valve: bool = False) -> Path:
     """Build the firmware as the Arduino IDE would, and return its ELF file.
 
-    Raises
-    ------
-    EmulatorUnavailableError
-        If what builds or runs it is not installed.
+    Raises:
+        EmulatorUnavailableError: If what builds or runs it is not installed.
     """
     if packages := missing():
         raise EmulatorUnavailableError(packages)

@@ -76,10 +76,8 @@ def gripper(seed: int = 0) -> Simulation:
 class EmulatedFingers(EmulatedLink):
     """A `Link` to an emulated board that drives simulated fingers; all of it is simulated.
 
-    Parameters
-    ----------
-    plant
-        Physics of one run, of `finger` or `gripper`; None for `finger`.
+    Args:
+        plant: Physics of one run, of `finger` or `gripper`; None for `finger`.
     """
 
     def __init__(self, plant: Simulation | None = None) -> None:
