@@ -24,17 +24,7 @@ def _profiles() -> dict[str, Any]:
     }
 
 
-@figure(
-    "2.4",
-    caption="The three shapes of Eq. (2.1) from the side, redrawn: height L, width w, the section "
-    "A(y) at a height y, and the load F. The pyramid has the flat top, 0.12 w wide, that Table 2.1 "
-    "asks for.",
-    alt="Side views of a cylinder, a hemisphere and a cut pyramid on a ground line. A red arrow F "
-    "presses on the top of each; a blue line across each, at a height y, is the section A(y). L is "
-    "the height, w the width.",
-    provenance=Provenance.PRINTED,
-    drawing=True,
-)
+@figure("2.4", Provenance.PRINTED, drawing=True)
 def figure_2_4() -> Figure:
     """Draw the elements under load."""
     drawn, axes = sheet(2.1)
@@ -59,15 +49,7 @@ def figure_2_4() -> Figure:
     return drawn
 
 
-@figure(
-    "2.6",
-    caption="The classifier, redrawn: the responses of the eight elements, Eq. (2.3), go in, one "
-    "of three codes comes out, Eq. (2.4).",
-    alt="The vector V of eight responses between 0 and 1 enters a block named classifier. Out of "
-    "it come three codes: point is 1 0 0, line is 0 1 0, surface is 0 0 1.",
-    provenance=Provenance.PRINTED,
-    drawing=True,
-)
+@figure("2.6", Provenance.PRINTED, drawing=True)
 def figure_2_6() -> Figure:
     """Draw the classifier's input and output."""
     drawn, axes = sheet(1.8)
@@ -85,17 +67,7 @@ def figure_2_6() -> Figure:
     return drawn
 
 
-@figure(
-    "2.12",
-    caption="The loop of the gripper, redrawn. Coulomb's law, Eq. (2.8), turns the wanted lift "
-    "force F_l into the contact force F_c; the PD controller turns its error e into a command C, "
-    "the servomotor into a position P, and the force F_m is what the pad then says.",
-    alt="Block diagram. F_l enters Coulomb's law and leaves as F_c; a circle subtracts F_m and "
-    "gives e; the PD controller gives C, the servomotor P, the object between fingers a force, and "
-    "the pad F_m, which goes back to the circle.",
-    provenance=Provenance.PRINTED,
-    drawing=True,
-)
+@figure("2.12", Provenance.PRINTED, drawing=True)
 def figure_2_12() -> Figure:
     """Draw the scheme of the force control."""
     drawn, axes = sheet(2.2)

@@ -51,19 +51,7 @@ PRINTED_LEAST = {"cylinder": 0.1, "hemisphere": 0.02, "pyramid": 0.01}
 """Least forces felt as Section 2.2 prints them, N."""
 
 
-@figure(
-    "2.3",
-    caption="Resistance of the three elements over load, *simulated*: deformation by Eq. (2.1) "
-    "with E = 0.125 MPa for the elements that the analytic rows of Table 2.1 ask for, and a skin "
-    "that gets thinner as the element gets shorter; from 1 MOhm to 1.5 MOhm, both printed. Below, "
-    "the change alone: the dotted line is what the pyramid shows at its printed least force, 0.01 "
-    "N (so this point is no finding); rings are the printed least forces of all three.",
-    alt="Two panels. Above, the pyramid's resistance rises to the ceiling of 1.5 megohm at 0.18 "
-    "newton, the hemisphere's at 0.37, and the cylinder's has hardly risen at 0.4. Below, on "
-    "logarithmic axes, three parallel lines cross the threshold at 0.01, 0.021 and 0.18 newton; "
-    "the printed forces are 0.01, 0.02 and 0.1.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.3", Provenance.SIMULATED)
 def figure_2_3() -> Figure:
     """Draw resistance over load, and where it can be read."""
     drawn, (upper, lower) = sheet(6.0, 2, 1)
@@ -87,20 +75,7 @@ def figure_2_3() -> Figure:
     return drawn
 
 
-@figure(
-    "2.5",
-    caption="Middle section of each element under 0.1 N spread evenly over its top, by linear "
-    "finite elements with E = 0.1 MPa and nu = 0.49, clamped at the base; the sizes are those that "
-    "the analytic rows of Table 2.1 ask for. Colour: length of the displacement, drawn on the body "
-    "at rest; black: the outline it then has. The tops of hemisphere and pyramid move by a third "
-    "of the height and more, which a linear model cannot answer for. On the coarse mesh of the "
-    "picture the top moves by less than 1 % otherwise than on the finest.",
-    alt="Three sections coloured by displacement. The wide flat cylinder moves by up to 0.05 "
-    "millimetre, most at its bulging upper rim. The hemisphere hardly moves but for its small top, "
-    "which sinks in by 1.8 millimetre as a narrow pit. The pyramid's top goes down by 1.2 "
-    "millimetre, its lower half stays.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.5", Provenance.SIMULATED)
 def figure_2_5() -> Figure:
     """Draw the three deformed sections."""
     drawn = Figure(figsize=(WIDTH, 6.2))
@@ -127,18 +102,7 @@ def _draw_section(axes: Any, at: Floats, moved: Floats) -> Any:
     return shown
 
 
-@figure(
-    "2.A",
-    caption="Deformation by finite elements over the number of unknowns, as a part of that on the "
-    "finest mesh: the largest and the mean displacement of the top under an even load, and that of "
-    "a rigid plate, for the elements of Figure 2.5. The plate's edge on a small top converges "
-    "slowly: its values are some per cent too small.",
-    alt="Three panels. The cylinder's three curves stay within one per cent of one. The "
-    "hemisphere's largest and mean displacement come from one and six per cent below and flatten; "
-    "the plate's starts 23 per cent below and is still rising at the right end. The pyramid's "
-    "curves come from 5 to 13 per cent below and flatten.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.A", Provenance.SIMULATED)
 def figure_2_a() -> Figure:
     """Draw mesh convergence."""
     drawn = Figure(figsize=(WIDTH, 6.4))
@@ -155,20 +119,7 @@ def figure_2_a() -> Figure:
     return drawn
 
 
-@figure(
-    "2.B",
-    caption="Which shape gives way most, over the width of its flat top, at one width of the base "
-    "(6 mm), one height (3 mm) and one modulus (0.125 MPa): by Eq. (2.1), and by linear finite "
-    "elements (largest displacement of the evenly loaded top). The width of the top, which is not "
-    "printed, counts for more than the shape; by finite elements the hemisphere leads, whose round "
-    "top has the smaller area. Vertical lines: the tops that the analytic rows of Table 2.1 ask "
-    "for, 0.085 and 0.12.",
-    alt="On a logarithmic axis, millimetres per newton fall from sharp to flat tops. By the "
-    "equation pyramid and hemisphere fall from 13 and 3 to 0.7 and 0.8 and cross at a cut of 0.54. "
-    "By finite elements both fall from about 20 to below one, the hemisphere a little above the "
-    "pyramid for sharp tops and further above it for flat ones.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.B", Provenance.SIMULATED)
 def figure_2_b() -> Figure:
     """Draw compliance over the cut."""
     drawn, axes = sheet(4.2)
@@ -204,16 +155,7 @@ def _cells(row: PrintedRow, modulus: float, element: Element) -> str:
     return " / ".join(f"{deformation(row, f, modulus, element) / MM:.3f}" for f in FORCES)
 
 
-@table(
-    "2.1",
-    caption="Deformation in mm at 0.1, 0.2 and 0.3 N: as printed; with E = 0.125 MPa and the sizes "
-    "of the text, which leave all but the cylinder and Eq. (2.2) undefined (a sharp top gives "
-    "infinity); with E = 0.1 MPa and the elements that the analytic rows ask for (they were chosen "
-    "for those rows, which are no finding); and these elements with E = 0.125 MPa. The rows of "
-    "finite elements are the largest displacement of the top: they do not come out, not even for "
-    "the elements of the row below them. Hertz with the exponent 2/3.",
-    provenance=Provenance.PRINTED,
-)
+@table("2.1", Provenance.PRINTED)
 def table_2_1_recomputed() -> pd.DataFrame:
     """Tabulate Table 2.1 beside ours."""
     rows = []
@@ -232,14 +174,7 @@ def table_2_1_recomputed() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@table(
-    "2.A",
-    caption="What the rows of Table 2.1 ask for: the input that is not printed, or printed "
-    "otherwise, when the others are those of the text, for two moduli (MPa). Each range gives all "
-    "three cells of its row to the last digit; finite elements: the top that gives the cell at 0.3 "
-    "N as the largest displacement.",
-    provenance=Provenance.PRINTED,
-)
+@table("2.A", Provenance.PRINTED)
 def table_2_a() -> pd.DataFrame:
     """Tabulate inputs that rows ask for."""
     rows = []
@@ -282,17 +217,7 @@ def _asked(modulus: float) -> list[tuple[str, str, float, float]]:
     return found
 
 
-@table(
-    "2.B",
-    caption="Compliance by Eq. (2.1) as a part of that of a cylinder with the same height, modulus "
-    "and width of the base, area of the base, or volume; and by finite elements (largest and mean "
-    "displacement of the evenly loaded top, the same width of the base). By the equation the "
-    "pyramid leads at any cut with one area of the base, and up to a cut of "
-    f"{equal_cut():.2f} with one width; by finite elements the hemisphere leads with one width of "
-    "the base and of the top. Last column: pyramid by hemisphere, by finite elements, with one "
-    "area of the top, which is round for one and square for the other.",
-    provenance=Provenance.SIMULATED,
-)
+@table("2.B", Provenance.SIMULATED, cut=lambda: f"{equal_cut():.2f}")
 def table_2_b() -> pd.DataFrame:
     """Tabulate which shape gives way most, over the cut."""
     kept = {(r.element.shape, r.element.cut): r.top for r in read("cut")}

@@ -50,19 +50,7 @@ def draw_points(axes: Any) -> None:
     axes.plot(voltage, force / GRAM_FORCE, "o", color=MEASURED, ms=2.5, label="weights")
 
 
-@figure(
-    "2.8",
-    caption="The *simulated* force-measurement layer. (a) Voltage of the 22 weights and of none, "
-    "three times each; its slope falls to about one count a gram-force at 0.7 N, to which the "
-    "layer is calibrated. Zero reads 0.25 V soon after 70 gf were taken off. (b) Three "
-    "cycles of 0.2, 0.5 and 0.7 N, laid over each other. (c) The same as loops: the assumed memory "
-    "of the layer keeps the voltage up when it is unloaded.",
-    alt="Three panels. In the first the voltage rises steeply from zero and flattens out at 3.9 "
-    "volts for 70 gram-force. In the second three plateaus at 2.7, 3.7 and 3.9 volts, each drawn "
-    "three times and hardly apart; after unloading a tail of some tenths of a volt dies away. In "
-    "the third three narrow loops of voltage over force, the unloading branch above the other.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.8", Provenance.SIMULATED)
 def figure_2_8() -> Figure:
     """Draw the response of the layer, its cycles and its hysteresis."""
     drawn, (first, second, third) = sheet(8.2, 3, 1)
@@ -87,17 +75,7 @@ def figure_2_8() -> Figure:
     return drawn
 
 
-@figure(
-    "2.9",
-    caption="The four regressors on the 69 points of the *simulated* layer. Root mean square "
-    "errors where a fifth of the points is left out at random / where all points of a weight are "
-    "left out. With the first, the other measurements of the same weight stay in the training, "
-    "and the regressors that follow them look best; with the second, the network is.",
-    alt="Four panels of force over voltage. The line of least squares misses the points by up to "
-    "30 gram-force. The network goes smoothly through them. The nearest neighbours are a staircase "
-    "and so, with rounder edges, is the Nadaraya-Watson regressor.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.9", Provenance.SIMULATED)
 def figure_2_9() -> Figure:
     """Draw the fits of four regressors."""
     drawn, panels = sheet(5.4, 2, 2, sharex=True, sharey=True)
@@ -117,19 +95,7 @@ def figure_2_9() -> Figure:
     return drawn
 
 
-@figure(
-    "2.G",
-    caption="Drift of the *simulated* layer, whose size is assumed, and its correction: root mean "
-    "square error of four weights (10 to 60 gf) in 40 hours each. (a) Within an hour that begins "
-    "2 h after the calibration. (b) Whole hours, over the time since the calibration. A line at "
-    "the start repairs what came before it, not what follows; right after the calibration it does "
-    "harm, as the few readings behind it err by more than the layer has drifted.",
-    alt="Two panels. In the first the error without correction is above ten gram-force "
-    "throughout; with the line at the start it grows from under two to nearly five in the hour; "
-    "with lines at both ends it stays near 1.2. In the second the error without correction grows "
-    "from three to 27 in eight hours, the other two stay near three and under two.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.G", Provenance.SIMULATED)
 def figure_2_g() -> Figure:
     """Draw what the correction of drift repairs."""
     drawn, (upper, lower) = sheet(6.0, 2, 1)
@@ -148,17 +114,7 @@ def figure_2_g() -> Figure:
     return drawn
 
 
-@figure(
-    "2.H",
-    caption="Error of the Nadaraya-Watson regressor on points of the *simulated* layer that are "
-    "left out, over its bandwidth, which is not printed; dots: the best. Left out one at a time, "
-    "two measurements of the same weight remain, and the kernel may be as narrow as their noise; "
-    "left out a weight at a time, as an object's weight is, it has to reach the next one.",
-    alt="Two curves over a logarithmic axis. Leaving out points, the error is lowest, 0.6 gram-"
-    "force, at a bandwidth of 0.011 volts; leaving out weights, it is lowest, 2.9, at 0.08 volts. "
-    "Above 0.3 volts they rise together.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.H", Provenance.SIMULATED)
 def figure_2_h() -> Figure:
     """Draw the error of what is left out over the bandwidth."""
     drawn, axes = sheet(3.4)
@@ -181,14 +137,7 @@ def _measured(weighing: Weighing) -> str:
     return f"{weighing.measured / GRAM_FORCE:.2f} ± {weighing.deviation / GRAM_FORCE:.2f}"
 
 
-@table(
-    "2.2",
-    caption="Weights of five objects (gf), mean and deviation of ten measurements, as printed and "
-    "by the *simulated* layer, with the accuracy (%) of the mean. The simulated deviations follow "
-    "from a spread of seating that is calibrated to the printed ones; all simulated objects are "
-    "rigid. Bandwidth by leaving out whole weights.",
-    provenance=Provenance.SIMULATED,
-)
+@table("2.2", Provenance.SIMULATED)
 def table_2_2_beside_ours() -> pd.DataFrame:
     """Tabulate Table 2.2 beside the simulated layer."""
     ours = weighed_objects()
@@ -205,14 +154,7 @@ def table_2_2_beside_ours() -> pd.DataFrame:
     )
 
 
-@table(
-    "2.H",
-    caption="What Table 2.2 says beyond its accuracies: the 95 % interval of each mean (gf), the p "
-    "of Student's test that the mean is the true weight, the accuracy (%) of the mean as printed "
-    "and that of one measurement, if ten scatter normally, and the deviation in newtons, of which "
-    "Section 2.2 says 0.015 N on average.",
-    provenance=Provenance.PRINTED,
-)
+@table("2.H", Provenance.PRINTED)
 def table_2_h() -> pd.DataFrame:
     """Tabulate intervals and tests of Table 2.2."""
     rows = []
@@ -243,14 +185,7 @@ def table_2_h() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@table(
-    "2.I",
-    caption="Root mean square errors (gf) of regressors on points of the *simulated* layer that "
-    "were left out of the training: a fifth at random (mean of 20 draws), and all points of one "
-    'weight at a time. "Wide" has the bandwidth that is best for the latter, chosen on the same '
-    "points; isotonic regression is ours, and has no setting.",
-    provenance=Provenance.SIMULATED,
-)
+@table("2.I", Provenance.SIMULATED)
 def table_2_i() -> pd.DataFrame:
     """Tabulate the comparison of regressors."""
     return pd.DataFrame(

@@ -31,19 +31,7 @@ from softgrip.tactile.friction import (
 )
 
 
-@figure(
-    "2.14",
-    caption="Force while the *simulated* gripper closes on the three objects, from 5 mm away, one "
-    "pair of gains for all. Orange: desired, as printed. Blue: what the pad says in one grasp; "
-    "band: 5 to 95 % of 200. Black: true force of that grasp, and for all of them the dotted lines "
-    "of 5 and 95 %. Grey: least force that bears the printed weight with a friction coefficient of "
-    "1, which the print leaves possible.",
-    alt="Three panels over time. The measured force follows the orange line from below: the egg's "
-    "within about half a second, the carrot's in one and a half, the tofu's in two and a half. "
-    "None swings over by much. The true force ends a few per cent beside the measured one. The "
-    "grey line of the egg lies on the desired force, those of tofu and carrot below it.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.14", Provenance.SIMULATED)
 def figure_2_14() -> Figure:
     """Draw desired, measured and true force of the three grasps."""
     drawn, panels = sheet(6.6, 3, 1, sharex=True)
@@ -65,19 +53,7 @@ def figure_2_14() -> Figure:
     return drawn
 
 
-@figure(
-    "2.I",
-    caption="Which friction coefficients agree with the printed grasps, Eq. (2.9). Bars: those "
-    "that the rounding of the desired force and of the estimated lift force allows, if the "
-    "measured force is the desired one; dot: from the numbers as they stand. Grey: where the "
-    "desired force just bears the printed weight; the coefficient must lie to its right. Green: "
-    "what all three bars have in common.",
-    alt="Three blue bars, one an object: the egg's from 0.93 to 1.5, the tofu's from 0.97 to 1.15, "
-    "the carrot's from 0.85 to 1.03. A narrow green strip from 0.97 to 1.03 crosses all. The grey "
-    "bar below each is, for tofu and carrot, left of the strip; the egg's spans it from 0.79 to "
-    "1.3.",
-    provenance=Provenance.PRINTED,
-)
+@figure("2.I", Provenance.PRINTED)
 def figure_2_i() -> Figure:
     """Draw the intervals of the friction coefficient."""
     drawn, axes = sheet(2.9)
@@ -106,19 +82,7 @@ def figure_2_i() -> Figure:
     return drawn
 
 
-@figure(
-    "2.J",
-    caption="Two readings of the command C of Figure 2.12, *simulated*. (a) The egg: as a change "
-    "of position; as the position itself, from the first touch and from 5 mm away, with half the "
-    "gain at which the egg would make it unstable. (b) The share of the force that is missing at "
-    "rest, as a position and from the first touch: on linear contacts (line), which loop gains "
-    "beyond the red line make unstable, and in the simulation, whose contacts stiffen with force.",
-    alt="Two panels. In the first, the change of position reaches the desired force; the position "
-    "stays at a quarter of it, and from five millimetres away it stays at zero. In the second, the "
-    "missing share falls from one to just above a third where a red line ends it; three marks lie "
-    "above the curve: the egg at 0.75, the carrot at 0.70, the tofu at 0.95.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.J", Provenance.SIMULATED)
 def figure_2_j() -> Figure:
     """Draw what each reading of the command makes of a grasp."""
     drawn, (upper, lower) = sheet(5.6, 2, 1)
@@ -163,14 +127,7 @@ def _ripple(name: str, factor: float = 1.0) -> str:
     return f"{1e3 * summary(study(name, factor)).ripple:.1f}"
 
 
-@table(
-    "2.J",
-    caption="What the printed forces of Section 2.4 imply. The friction coefficient is that of Eq. "
-    "(2.9), in the bounds that rounding leaves, with the measured force taken to be the desired "
-    "one; the last rows take it to be 1, which is between the bounds common to all three. The last "
-    "row supposes that a measured force deviates by 0.015 N, as Section 2.2 prints on average.",
-    provenance=Provenance.PRINTED,
-)
+@table("2.J", Provenance.PRINTED)
 def table_2_j() -> pd.DataFrame:
     """Tabulate the friction that printed forces imply, and what is then lifted."""
     columns = {}
@@ -196,14 +153,7 @@ def table_2_j() -> pd.DataFrame:
     return found.rename_axis("quantity").reset_index()
 
 
-@table(
-    "2.K",
-    caption="The *simulated* grasps, 200 of each object, 10 s from the open gripper: command as a "
-    "change of position. Desired forces and weights are the printed ones; the friction coefficient "
-    "is 1, or at the ends of what the print leaves. Held: the true lift force of the last second "
-    "bears the printed weight. Last: the force that is missing if the command is a position.",
-    provenance=Provenance.SIMULATED,
-)
+@table("2.K", Provenance.SIMULATED)
 def table_2_k() -> pd.DataFrame:
     """Tabulate how the simulated force comes to rest, and whether the object is held."""
     columns = {}

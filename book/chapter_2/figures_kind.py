@@ -84,16 +84,7 @@ def draw_confusions(truth: ArrayLike, told: Mapping[str, ArrayLike]) -> Figure:
     return drawn
 
 
-@figure(
-    "2.7",
-    caption="Accuracy of the k-nearest neighbour classifier over k on the *simulated* pad: in "
-    "5-fold cross-validation on 504 of its 630 contacts (training) and on the other 126 (testing). "
-    "Lines: mean over 20 random splits; bands: their range. Squares: printed for k = 3.",
-    alt="Two falling curves over k from 1 to 10: training from 86 to 80 per cent, testing one or "
-    "two above it, with a band three times as wide. Both bands lie below the printed squares at 96 "
-    "and 97 per cent.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.7", Provenance.SIMULATED)
 def figure_2_7() -> Figure:
     """Draw training and testing accuracy against k."""
     drawn = draw_neighbours(kept_neighbours())
@@ -108,16 +99,7 @@ def figure_2_7() -> Figure:
     return drawn
 
 
-@figure(
-    "2.11",
-    caption="What the two classifiers say of 80 contacts of eight objects on the *simulated* pad, "
-    "trained on all 630 of the other log: counts, and shares of each true kind. The print has 74 "
-    "and 77 of 80 right (92.5 and 96.25 %).",
-    alt="Two matrices of three by three. In both all surfaces are told as such; points are told as "
-    "lines, and lines as points or surfaces, the single classifier being right in 66 cases and "
-    "the bagging one in 64.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.11", Provenance.SIMULATED)
 def figure_2_11() -> Figure:
     """Draw the confusion matrices of the single and of the bagging classifier."""
     felt, new = contacts(TRAINING), contacts(OBJECTS)
@@ -129,15 +111,7 @@ def figure_2_11() -> Figure:
     return draw_confusions(new.kinds, told)
 
 
-@figure(
-    "2.E",
-    caption="How many more of the 80 contacts the bagging classifier gets right than the single "
-    "one, over 200 seeds of its random draws, on the *simulated* pad: contacts drawn with "
-    "replacement, as usual, and without (the text does not say). The print has 3 more.",
-    alt="Bars from minus five to four. With replacement they lie about zero, without about one. "
-    "The printed gain of three is at their right end.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.E", Provenance.SIMULATED)
 def figure_2_e() -> Figure:
     """Draw the distribution of the gain by bagging."""
     drawn, axes = sheet(2.8)
@@ -155,15 +129,7 @@ def figure_2_e() -> Figure:
     return drawn
 
 
-@figure(
-    "2.F",
-    caption="Accuracy on each object of the *simulated* training log, single classifier: when "
-    "other contacts of the object were in the training (cross-validation at random), and when it "
-    "was never felt (all its contacts left out). Lines: 95 % intervals of the latter.",
-    alt="Twenty-one rows with two marks each, which mostly lie within a few per cent of each "
-    "other. Surfaces are at 90 to 100 per cent, points at 73 to 97, lines at 63 to 87.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.F", Provenance.SIMULATED)
 def figure_2_f() -> Figure:
     """Draw the accuracy on objects that were felt before and that were not."""
     found = kept("objects")
@@ -196,14 +162,7 @@ def _percent(found: Accuracy) -> str:
     return f"{100 * found.share:.1f} ({100 * low:.1f} to {100 * high:.1f})"
 
 
-@table(
-    "2.E",
-    caption="Accuracy (%) of the text's classifiers on the *simulated* pad, with scikit-learn's "
-    "settings where the text has none: in 5-fold cross-validation on 504 contacts and on the other "
-    "126, means over 20 splits and their range; and on the 80 contacts of eight objects, for the "
-    "first seed, with its 95 % interval. In brackets what is printed.",
-    provenance=Provenance.SIMULATED,
-)
+@table("2.E", Provenance.SIMULATED)
 def table_2_e() -> pd.DataFrame:
     """Tabulate the classifiers' accuracies beside the printed ones."""
     rows = []
@@ -221,14 +180,7 @@ def table_2_e() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@table(
-    "2.F",
-    caption="The printed accuracies as counts: the only number of right answers that rounds to "
-    "each percentage, its 95 % interval (Clopper and Pearson, contacts taken as independent), and "
-    "whether the two classifiers differ: McNemar's exact test over all that the counts leave open, "
-    "from none to as many as possible that both get wrong.",
-    provenance=Provenance.PRINTED,
-)
+@table("2.F", Provenance.PRINTED)
 def table_2_f() -> pd.DataFrame:
     """Tabulate counts, intervals and tests of the printed accuracies."""
     rows = []
@@ -248,14 +200,7 @@ def table_2_f() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@table(
-    "2.G",
-    caption="Does it know what it never felt? Accuracy (%) with its 95 % interval on the "
-    "*simulated* pad: contacts left out at random, and whole objects left out; then on the eight "
-    "objects, with and without those of them that are in the training log. Last, McNemar's exact "
-    "test between the two classifiers.",
-    provenance=Provenance.SIMULATED,
-)
+@table("2.G", Provenance.SIMULATED)
 def table_2_g() -> pd.DataFrame:
     """Tabulate accuracies on contacts and on objects that were left out."""
     found = kept("objects")

@@ -105,19 +105,7 @@ def draw_estimate(axes: Any, responses: Floats, *, line: bool) -> None:
         axes.plot(x + along * np.cos(angle), y + along * np.sin(angle), color=BLUE, lw=1.2)
 
 
-@figure(
-    "2.13",
-    caption="Responses of the *simulated* pad to an egg, tofu and a carrot under the forces of "
-    "Section 2.4, elements as squares, with the responses that are felt (above 0.05: the tofu "
-    "stays below, with 0.01 N on each element); green, dashed: the profile of the object (places, "
-    "angles and the layout are assumed); blue: the estimated place, and the direction of a line. "
-    "Objects are smooth and level here.",
-    alt="Six drawings of a pad with eight squares in rows of three, two and three. Under the egg "
-    "the two middle squares are red and the one above them is pale; under the tofu all eight are "
-    "almost white; under the carrot two or three squares that lie along it are pale red. A blue "
-    "line runs along it or, where it lies askew, up to some twenty degrees off.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.13", Provenance.SIMULATED)
 def figure_2_13() -> Figure:
     """Draw the pad under six grasps."""
     drawn = Figure(figsize=(WIDTH, 7.2))
@@ -150,18 +138,7 @@ def _place_map(step: float) -> tuple[Floats, Floats]:
     return true, place(np.array(felt), THREE_TWO_THREE)
 
 
-@figure(
-    "2.C",
-    caption="Place of a point contact by the centroid of the responses. (a) A ball of 20 mm, 0.15 "
-    "N, on an ideal *simulated* pad: from the true place (end of each line) to the estimated one "
-    "(dot). (b) Share of the simulated contacts whose error is up to a value, by kind, on the pad "
-    "of the logs; to lines it is counted square to them.",
-    alt="Two panels. In the first, lines run from a grid of true places to dots that gather on "
-    "eight squares and on the straight connections between neighbours: a ball that meets one "
-    "element only is found in its middle. In the second, three curves rise: errors of lines are "
-    "the smallest, with a median of 0.8 millimetres, then points with 2.5, then surfaces with 4.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.C", Provenance.SIMULATED)
 def figure_2_c() -> Figure:
     """Draw how true places move to estimated ones, and the distribution of the errors."""
     drawn = Figure(figsize=(WIDTH, 6.4))
@@ -182,19 +159,7 @@ def figure_2_c() -> Figure:
     return drawn
 
 
-@figure(
-    "2.D",
-    caption="Angle of a line contact by the principal axis of the responses, *simulated*. (a) Its "
-    "error over the true angle, for a rod of 20 mm through the middle of an ideal pad and 3 mm "
-    "beside it, 0.15 N: while the same two elements are felt, the estimate stays and the error "
-    "grows with the angle. (b) Those of the 210 lines of the training log that two elements or "
-    "more felt, with rough objects, tilt, noise and drift.",
-    alt="Two panels. In the first, both curves are saw-teeth about zero, with peaks up to 26 "
-    "degrees through the middle and 21 beside it. In the second, most points lie within fifteen "
-    "degrees of the diagonal, many on horizontal rows at 0, 61, 90 and minus 61 degrees, where two "
-    "elements are felt; a few lie far off.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("2.D", Provenance.SIMULATED)
 def figure_2_d() -> Figure:
     """Draw the error of the angle on the ideal pad, and the angles of the log."""
     drawn = Figure(figsize=(WIDTH, 6.4))
@@ -244,13 +209,7 @@ def _row(name: str, log: str, chosen: Any) -> dict[str, object]:
     }
 
 
-@table(
-    "2.C",
-    caption="Errors of place and angle on the *simulated* pad: half and nine tenths of the "
-    "contacts are within them. To a line the place is counted square to it. A line's angle is said "
-    "where two elements or more are felt; by two, it can only be that of their connection.",
-    provenance=Provenance.SIMULATED,
-)
+@table("2.C", Provenance.SIMULATED)
 def table_2_c() -> pd.DataFrame:
     """Tabulate the errors by kind, by number of elements, and by food."""
     learned, tested = (contacts(name) for name in LOGS)
@@ -264,12 +223,7 @@ def table_2_c() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@table(
-    "2.D",
-    caption="What is assumed of the simulated pad: nothing is printed that could calibrate it. The "
-    "first two lines are printed numbers beside what it gives; no parameter was set by them.",
-    provenance=Provenance.SIMULATED,
-)
+@table("2.D", Provenance.SIMULATED)
 def table_2_d() -> pd.DataFrame:
     """Tabulate the assumptions of the simulated pad."""
     return pd.DataFrame(

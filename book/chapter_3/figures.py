@@ -60,16 +60,7 @@ def optimum() -> Section:
     return table_3_1()["Opt. parameters"]
 
 
-@figure(
-    "3.3",
-    caption="The cross-section of Design 1 with its four dimensions (our drawing of (c) and (d)). "
-    "Air of pressure P fills the chamber above the neutral surface; the rubber around it pulls by "
-    "the stress of Eq. (3.3).",
-    alt="A rectangle 30 millimetres wide and 24 high. Walls of 1.5 millimetres enclose a chamber "
-    "that begins at the neutral surface, 4 millimetres above the bottom. Arrows mark a from the "
-    "neutral surface to the top, b to the bottom, the width w and the wall t.",
-    provenance=Provenance.PRINTED,
-)
+@figure("3.3", Provenance.PRINTED)
 def figure_3_3() -> Figure:
     """Draw the section with its dimensions."""
     drawn, axes = sheet(3.6)
@@ -89,16 +80,7 @@ def figure_3_3() -> Figure:
     return drawn
 
 
-@figure(
-    "3.A",
-    caption="Three printed results of one finger (Design 1), over the power n that none of them "
-    "states: recomputed over printed. Each curve passes 1 at another n. Dotted: the n that "
-    "Tables 5.1 and 5.2 print for its rubber.",
-    alt="Three curves of recomputed over printed value against n. The natural frequency falls and "
-    "crosses one at n = 1.05; the bending angle rises and crosses it at 1.56; the sum of the "
-    "objective rises more slowly and crosses it at 2.08. Dotted lines stand at 2.17, 2.37 and 2.5.",
-    provenance=Provenance.PRINTED,
-)
+@figure("3.A", Provenance.PRINTED)
 def figure_3_a() -> Figure:
     """Draw what n each of three printed results asks for."""
     drawn, axes = sheet(3.4)
@@ -124,18 +106,7 @@ def figure_3_a() -> Figure:
     return drawn
 
 
-@figure(
-    "3.B",
-    caption="The sum of Eq. (3.20) over a and b (w = 30 mm, t = 1.5 mm, n = 1.045, 0.15 MPa), and "
-    "where its constraints end. With the ranges of Section 3.3 the best section is at the upper "
-    "right of the box; the printed one is not on its edge. Dashed: the natural frequency of "
-    "Eq. (3.16) in rad/s.",
-    alt="Contours over a from 14 to 24 and b from 2 to 5 millimetres. The sum grows to the upper "
-    "right; a line from upper left to lower right marks the largest height of 25 millimetres. The "
-    "best section lies at b = 5 and a = 20; the printed one at b = 4 and a = 20. Dashed lines of "
-    "constant frequency run parallel to those of constant height.",
-    provenance=Provenance.PRINTED,
-)
+@figure("3.B", Provenance.PRINTED)
 def figure_3_b() -> Figure:
     """Draw the objective over the heights above and below the neutral surface."""
     drawn, axes = sheet(3.6)
@@ -169,17 +140,7 @@ def figure_3_b() -> Figure:
     return drawn
 
 
-@figure(
-    "3.9",
-    caption="Torque of the finger held straight, over pressure: Eq. (3.4), and the blocked-torque "
-    "test of three designs on the *simulated* rig, which is calibrated to the printed 0.359 N m of "
-    "Design 1 at 0.25 MPa (ring) and to the plateau of about 0.15 N m at which Design 3 buckles. "
-    "The torque of Design 2 is not printed; the rig has that of Design 1.",
-    alt="Torque over pressure up to 0.25 megapascal. The equation is a straight line to 0.51 "
-    "newton metres. The simulated tests of Designs 1 and 2 lie on a lower straight line that ends "
-    "at 0.36; Design 3 follows it up to 0.1 megapascal and then stays at 0.15.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("3.9", Provenance.SIMULATED)
 def figure_3_9() -> Figure:
     """Draw blocked torque over pressure: model and simulated rig."""
     drawn, axes = sheet(3.4)
@@ -198,17 +159,7 @@ def figure_3_9() -> Figure:
     return drawn
 
 
-@figure(
-    "3.10",
-    caption="Bending angle of the free finger over pressure: Eq. (3.10) with the modulus of Dragon "
-    "Skin 20 (E1) and of FX-Pro (E2), with the n that gives the printed 290 deg of E1 (solid) and "
-    "with those that Table 5.1 prints (dotted); and three designs on the *simulated* rig, "
-    "calibrated to the printed 206, 201 and 232 deg (rings), the mean of seven runs.",
-    alt="Angle over pressure up to 0.15 megapascal. The solid model curves reach 290 and about 400 "
-    "degrees; the dotted ones rise far more steeply. The simulated tests rise steeply first, then "
-    "flatten, and end at the printed 206, 201 and 232 degrees, the first two almost on each other.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("3.10", Provenance.SIMULATED)
 def figure_3_10() -> Figure:
     """Draw free bending over pressure: model and simulated rig."""
     drawn, axes = sheet(3.8)
@@ -229,15 +180,7 @@ def figure_3_10() -> Figure:
     return drawn
 
 
-@figure(
-    "3.11",
-    caption="Side view of Design 1 at six pressures, drawn from Eq. (3.10) as an arc, with the n "
-    "that gives the printed 290 deg at 0.15 MPa. The dissertation shows photographs.",
-    alt="Six side views of a finger that hangs from one point. At zero pressure it is straight; "
-    "with each step of 0.03 megapascal it curls further, until at 0.15 megapascal it has turned "
-    "by 290 degrees.",
-    provenance=Provenance.PRINTED,
-)
+@figure("3.11", Provenance.PRINTED)
 def figure_3_11() -> Figure:
     """Draw the bent finger at each pressure."""
     drawn, panels = sheet(4.2, 2, 3, sharex=True, sharey=True)
@@ -282,18 +225,7 @@ def _judged(drawn: Figure, axes: Any, value: str) -> None:
     axes.set(ylabel=value, title="(b) optimum, judged", xlabel="pressure (MPa)")
 
 
-@figure(
-    "3.5",
-    caption="Torque of a finger held straight, over pressure. (a) Eq. (3.4) for the optimum and "
-    "its variances. (b) The optimum: Eq. (3.4); finite elements of a finger with one chamber along "
-    "its length, and with six chambers between grooves whose depth is not printed; and the blocked "
-    "test on the *simulated* rig, which is calibrated to the printed measurement.",
-    alt="Two panels. In the first the seven lines fan out from zero to between 0.3 and 0.51 newton "
-    "metres at 0.25 megapascal, the optimum on top. In the second the finite elements with one "
-    "chamber give almost nothing, 0.04; those with six chambers 0.10, 0.35 or 0.48 depending on "
-    "the groove; the simulated test ends at 0.36.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("3.5", Provenance.SIMULATED)
 def figure_3_5() -> Figure:
     """Draw torque over pressure: variances, finite elements, simulated test."""
     drawn, (upper, lower) = sheet(6.4, 2, 1, sharex=True, sharey=True)
@@ -312,18 +244,7 @@ def figure_3_5() -> Figure:
     return drawn
 
 
-@figure(
-    "3.6",
-    caption="Bending angle of the free finger, over pressure. (a) Eq. (3.10) with the n that gives "
-    "the printed 290 deg, for the optimum and its variances. (b) The optimum: Eq. (3.10); linear "
-    "finite elements, which stand for small angles and are drawn on as far as they can be; and the "
-    "test on the *simulated* rig, which is calibrated to the printed measurement.",
-    alt="Two panels. In the first the seven curves end between 180 and 290 degrees at 0.15 "
-    "megapascal, the optimum on top. In the second the finite elements with six chambers rise so "
-    "steeply that they leave the panel, the more the deeper the grooves; those with one chamber "
-    "reach 18 degrees; the simulated test rises steeply and then flattens, to 206.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("3.6", Provenance.SIMULATED)
 def figure_3_6() -> Figure:
     """Draw bending angle over pressure: variances, finite elements, simulated test."""
     drawn, (upper, lower) = sheet(6.4, 2, 1, sharex=True, sharey=True)
@@ -346,19 +267,7 @@ def figure_3_6() -> Figure:
     return drawn
 
 
-@figure(
-    "3.E",
-    caption="What the finite elements hang on. Above: torque and bending angle by pressure over "
-    "the size of the elements, as parts of those on the finest mesh. Below: the same over the "
-    "depth of the grooves between the six chambers, which no place prints; the torque as a part of "
-    "Eq. (3.4), the angle of the printed 206 deg at 0.15 MPa.",
-    alt="Two panels. Above, the curves of six chambers stay within three per cent of one, those of "
-    "one chamber come from twenty per cent below, and all close in on one as the elements get "
-    "smaller. Below, the torque rises from 0.2 to 0.95 of the equation as the groove gets "
-    "shallower; the angle rises a little and then falls, from eighteen to three times the printed "
-    "one.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("3.E", Provenance.SIMULATED)
 def figure_3_e() -> Figure:
     """Draw mesh convergence, and the influence of the grooves."""
     drawn, (upper, lower) = sheet(5.6, 2, 1)

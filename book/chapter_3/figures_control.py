@@ -53,18 +53,7 @@ BANDS = {"2 %": 0.02, "5 %": 0.05, "10 %": 0.1}
 RUNS = 100
 
 
-@figure(
-    "3.12",
-    caption="A step to 60 deg under two regulators: (a) with the printed weights, frequency and "
-    "damping ratio, and a differentiator; (b) on the identified model with ten times p, a tenth of "
-    "the weight on the rate, and an observer. Each on its own linear model with the motor's limit, "
-    "and on a rig (those of the book on the *simulated* one), with its command as a share of "
-    "5 rev/s. The text does not say how large its step was; it prints a settling time of 0.8 s.",
-    alt="Two pairs of panels over six seconds, angle and command. With the printed weights the "
-    "angle creeps up to 60 degrees in about three seconds; with the faster design it is there in "
-    "about 1.3 seconds, its command at full speed one way and then the other.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("3.12", Provenance.SIMULATED)
 def figure_3_12(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw both regulators on their models and on a rig; ``logs`` gives two of another rig."""
     drawn = Figure(figsize=(WIDTH, 7.0))
@@ -93,17 +82,7 @@ def figure_3_12(logs: tuple[Path | str, ...] = ()) -> Figure:
     return drawn
 
 
-@figure(
-    "3.C",
-    caption="The closed loop over p, all else as printed. Above: the real parts of its poles; the "
-    "real one never passes $-\\sqrt{1/0.3} = -1.83$ rad/s. Below: settling times of the linear "
-    "loop, without limit or noise, with the printed weight on the rate and, dashed, with a tenth "
-    "of it. Dotted: the printed p and the printed 0.8 s.",
-    alt="Above, the real pole falls with p and levels off at a dashed line at minus 1.83, while "
-    "the pair goes on. Below, the settling times within 2, 5 and 10 percent fall and level off at "
-    "2.1, 1.6 and 1.3 seconds; only the dashed curve passes under 0.8 seconds.",
-    provenance=Provenance.PRINTED,
-)
+@figure("3.C", Provenance.PRINTED)
 def figure_3_c() -> Figure:
     """Draw poles and settling times over p."""
     drawn, (poles_axes, time_axes) = sheet(5.2, 2, 1, sharex=True)
@@ -140,16 +119,7 @@ def _settling_over_p(q2: float) -> Any:
     return np.array(rows)
 
 
-@figure(
-    "3.D",
-    caption="The least settling time over the size of the step that *any* controller can have "
-    "within 5 rev/s, on the linear model identified from the simulated rig's logs, and what a "
-    "regulator with true states reaches on it at 25 ms (dashed: for each step the best of a grid "
-    "of weights). Dotted: the printed 0.8 s.",
-    alt="Three rising curves, for 2, 5 and 10 percent, from about 0.6 seconds at 10 degrees to 1.4 "
-    "at 90; they cross 0.8 seconds between 20 and 30 degrees. The dashed curve lies close above.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("3.D", Provenance.SIMULATED)
 def figure_3_d() -> Figure:
     """Draw the bound on any controller, and the regulator, over the step."""
     drawn, axes = sheet(3.2)
@@ -169,14 +139,7 @@ def figure_3_d() -> Figure:
     return drawn
 
 
-@table(
-    "3.C",
-    caption="Settling of a step to 60 deg in s, within 2 % and 5 % of the step and within 5 deg, "
-    "and the error of the last 2 s in deg. The dissertation prints 0.8 s and an almost negligible "
-    "error, and names neither step nor criterion. The rig is the *simulated* one; of its 100 runs "
-    "the median is given, and between which values 90 % of them lie.",
-    provenance=Provenance.SIMULATED,
-)
+@table("3.C", Provenance.SIMULATED)
 def table_3_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
     """Tabulate settling times under each criterion; ``logs`` gives two of another rig."""
     bands = (0.02, 0.05, 5 * DEG / STEP)
@@ -235,13 +198,7 @@ def _spread(values: Any, form: str) -> str:
     return middle if np.size(values) == 1 else f"{middle} ({low} to {high})"
 
 
-@table(
-    "3.D",
-    caption="The largest step in deg that *any* controller settles in 0.8 s within 5 rev/s, by "
-    "criterion: on the model that is identified from the *simulated* rig's logs, and with the "
-    "printed frequency and damping ratio in it, its static gain kept.",
-    provenance=Provenance.SIMULATED,
-)
+@table("3.D", Provenance.SIMULATED)
 def table_3_d() -> pd.DataFrame:
     """Tabulate the largest step that can settle in the printed time."""
     model = identified_model()

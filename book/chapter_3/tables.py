@@ -29,15 +29,7 @@ def _mm(section: Section) -> dict[str, str]:
     return {short: f"{getattr(section, name) / MM:.4g}" for short, name in names.items()}
 
 
-@table(
-    "3.1",
-    caption="The optimum and its variances, mm, with the sum of Eq. (3.20) at 0.15 MPa for three "
-    "values of n: the one that the printed frequencies ask for, that of the printed angle, and "
-    "that of the printed sums. The optimum is ahead of its variances for each. Last: torque and "
-    "bending angle by finite elements of six chambers with grooves down to the neutral surface, as "
-    "parts of the optimum's.",
-    provenance=Provenance.SIMULATED,
-)
+@table("3.1", Provenance.SIMULATED)
 def table_3_1_sums() -> pd.DataFrame:
     """Tabulate the sections of Table 3.1 with the objective."""
     powers = (FREQUENCY_POWER, ANGLE_POWER, SUM_POWER)
@@ -59,15 +51,7 @@ def table_3_1_sums() -> pd.DataFrame:
     )
 
 
-@table(
-    "3.2",
-    caption="Four bands of the natural frequency (rad/s), the best a in mm as printed and as "
-    "recomputed (n = 1.045, M = 0.35 kg, b up to 4 mm; b = 4, w = 30 and t = 1.5 mm in all); the "
-    "measured frequency beside that of the *simulated* rig, also as a part of the first row's: by "
-    "second-order identification of the mean of seven steps to 60 deg, with its 95 % interval and "
-    "its poles.",
-    provenance=Provenance.SIMULATED,
-)
+@table("3.2", Provenance.SIMULATED)
 def table_3_2_recomputed() -> pd.DataFrame:
     """Tabulate the bands, their best sections and the frequencies of steps."""
     rows = []
@@ -91,13 +75,7 @@ def table_3_2_recomputed() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@table(
-    "3.3",
-    caption="Natural frequency (rad/s) by Eq. (3.16) of three designs: as printed, from the inputs "
-    "as the table states them with n = 1, and with the weight read as kilograms, 94 mm in the "
-    "place of 0.94 m and n = 1.045; and the rubber's own weight (N) beside the printed one.",
-    provenance=Provenance.PRINTED,
-)
+@table("3.3", Provenance.PRINTED)
 def table_3_3_recomputed() -> pd.DataFrame:
     """Tabulate the frequencies of Table 3.3."""
     return pd.DataFrame(
@@ -115,13 +93,7 @@ def table_3_3_recomputed() -> pd.DataFrame:
     )
 
 
-@table(
-    "3.4",
-    caption="Torque (N m) and bending angle (deg) of this design and of others in the literature, "
-    "as printed. Four bend further and two push harder than this design; none of them was designed "
-    "for a natural frequency.",
-    provenance=Provenance.PRINTED,
-)
+@table("3.4", Provenance.PRINTED)
 def table_3_4() -> pd.DataFrame:
     """Tabulate the comparison with other designs."""
     rows = printed_table_3_4()
@@ -136,14 +108,7 @@ def table_3_4() -> pd.DataFrame:
     )
 
 
-@table(
-    "3.A",
-    caption="The best section for four values of n with the ranges of Section 3.3 (a and b "
-    "exchanged), and with the upper limits of a and b at 20 and 4 mm; each proved by branch and "
-    "bound to be within 0.001 % of the best. The last column is the best section in whole steps of "
-    "a mould.",
-    provenance=Provenance.PRINTED,
-)
+@table("3.A", Provenance.PRINTED)
 def table_3_a() -> pd.DataFrame:
     """Tabulate certified optima over n and bounds."""
     rows = []

@@ -44,16 +44,7 @@ HOLD = "simulated/step-60-1.csv"
 STEPS = ("pid-actuator", "pid-full")
 
 
-@figure(
-    "4.3",
-    caption="Pressure by Eq. (4.5) for the values of Table 4.1, one changed at a time. The "
-    "capacity is not printed; here it is that of 90 mL of air at atmospheric pressure, held "
-    "constant. It sets the scale of all lines alike, and their ratios not at all.",
-    alt="Three panels of straight lines from the origin. A larger syringe makes the pressure rise "
-    "2.5 times as fast, a quarter of the lead makes it rise a quarter as fast, and double the "
-    "motor speed twice as fast.",
-    provenance=Provenance.PRINTED,
-)
+@figure("4.3", Provenance.PRINTED)
 def figure_4_3() -> Figure:
     """Draw the pressure over time for each design parameter."""
     drawn = Figure(figsize=(WIDTH, 6.4))
@@ -76,18 +67,7 @@ def figure_4_3() -> Figure:
     return drawn
 
 
-@figure(
-    "4.4",
-    caption="Pushes (those of the book of the *simulated* rig) against three models: capacity held "
-    "constant, Eq. (4.5), fitted below 0.03 MPa; capacity that changes with the swept volume, "
-    "Eq. (4.7), fitted to the whole push; and the capacity that a Kalman filter holds at each "
-    "sample. In (b) the 200 mL syringe starts with 60 mL of air like the others; full, it would "
-    "rise about as slowly as (a). The models' largest errors above 0.10 MPa are in the titles.",
-    alt="Four panels of pressure over time. The simulated pressure curves upward; the constant "
-    "model runs straight and stays far below it at high pressure, the modified model follows it "
-    "closely, and the filter lags a little behind.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("4.4", Provenance.SIMULATED)
 def figure_4_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the three models against four pushes; ``logs`` puts others in their place."""
     drawn = Figure(figsize=(WIDTH, 5.4))
@@ -118,20 +98,7 @@ def _draw_push(axes: Any, path: Path | str, name: str) -> None:
     axes.set(xlabel="time (s)", ylabel="MPa", ylim=(0, 0.17))
 
 
-@figure(
-    "4.A",
-    caption="The capacity as two filters have it, on the *simulated* rig: while the pump pushes, "
-    "and while it holds a bent finger. The filter as printed, Eq. (4.8) to (4.10), cannot see the "
-    "capacity: with the gain that fits the push best it goes on falling while nothing moves. The "
-    "filter that uses the pressure is moved by the pressure that still falls while the finger "
-    "bends, then rests; its band of two standard deviations opens, for with the pump at rest "
-    "nothing tells of the capacity. The flex sensor ends at 100 deg, which the push passes at 2.3 "
-    "s: what the printed filter is given from then on is constant.",
-    alt="Two panels of capacity over time. During the push both filters fall. During the hold the "
-    "printed filter goes on falling in a straight line; the other rises by a third within three "
-    "seconds and is then level, in a band that widens.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("4.A", Provenance.SIMULATED)
 def figure_4_a() -> Figure:
     """Draw the capacity by the printed filter and by the one that measures pressure."""
     drawn = Figure(figsize=(WIDTH, 3.2))
@@ -173,17 +140,7 @@ def _draw_capacity(axes: Any, time: Any, angle: Any, seen: Any, std: Any, gain: 
     )
 
 
-@figure(
-    "4.5",
-    caption="A step to 60 deg with two PID controllers, tuned alike on different models: (a) on "
-    "the finger alone, Eq. (4.14); (b) with the pump, Eq. (4.15). Each on its own linear model, "
-    "and on a rig (those of the book on the *simulated* one). The text does not say how large its "
-    "step was.",
-    alt="Two panels of angle over time. On its own model controller (a) is at 60 degrees in half a "
-    "second, on the simulated rig it swings for ten seconds. Controller (b) rises in about two "
-    "seconds on both and stays near 60 degrees.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("4.5", Provenance.SIMULATED)
 def figure_4_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw both controllers on their models and on a rig; ``logs`` gives two of another rig."""
     drawn, panels = sheet(5.2, 2, 1, sharex=True, sharey=True)
@@ -209,14 +166,7 @@ def _draw_log(axes: Any, path: Path | str, *, lw: float | None) -> None:
     axes.plot(log["time"], log["angle"] / DEG, color=MEASURED, lw=1, label=label)
 
 
-@figure(
-    "4.7",
-    caption="A staircase of 10 deg steps, held for 1.2 s each, with the controller of Figure 4.5 "
-    "(b) on a rig (that of the book is the *simulated* one).",
-    alt="The reference climbs to 60 degrees in steps and comes down again; the angle follows it as "
-    "a smooth hill, about a second late.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("4.7", Provenance.SIMULATED)
 def figure_4_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the staircase; ``logs`` gives one of another rig."""
     drawn, axes = sheet(3.2)
@@ -226,16 +176,7 @@ def figure_4_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     return drawn
 
 
-@figure(
-    "4.C",
-    caption="How far the finger can be moved in a given time by *any* controller within 5 rev/s, "
-    "on the linear model of finger and pump that is identified from the simulated rig's logs. "
-    "Dotted: the RMS error of the flex sensor, and the 0.2 s that the text gives for a commanded "
-    "change.",
-    alt="A curve that leaves the origin flat and then climbs; at 0.2 seconds it is still below the "
-    "two degrees of the sensor's error.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("4.C", Provenance.SIMULATED)
 def figure_4_c() -> Figure:
     """Draw the farthest angle that can be reached over time."""
     drawn, axes = sheet(3.0)

@@ -28,12 +28,7 @@ FINGER = Finger(
 LEAST_MARGIN = 1.5
 
 
-@table(
-    "4.1",
-    caption="The two values of each design parameter of the pump, with the air flow of Eq. (4.2) "
-    "when the others are at their first value.",
-    provenance=Provenance.PRINTED,
-)
+@table("4.1", Provenance.PRINTED)
 def table_4_1() -> pd.DataFrame:
     """Tabulate the variants of the pump's parameters, with the flow that each gives."""
     rows = []
@@ -59,13 +54,7 @@ def table_4_1() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@table(
-    "4.A",
-    caption="Syringes, leads and motors for the finger of the *simulated* rig, to 0.15 MPa within "
-    "4 s, best first. The torque is that at the end of the stroke, at the speed which the rise "
-    "time asks for; motors are typical ones of the NEMA 17 frame at 24 V.",
-    provenance=Provenance.SIMULATED,
-)
+@table("4.A", Provenance.SIMULATED)
 def table_4_a() -> pd.DataFrame:
     """Tabulate every combination of parts, judged."""
     return pd.DataFrame(
@@ -93,12 +82,7 @@ def _lacking(judged: Sizing) -> str:
     return ", ".join(word for word, lacking in lacks.items() if lacking)
 
 
-@table(
-    "4.B",
-    caption="What the simulated rig is tuned to, what was only checked, and what is assumed. What "
-    "it was calibrated to is never claimed as found.",
-    provenance=Provenance.SIMULATED,
-)
+@table("4.B", Provenance.SIMULATED)
 def table_4_b() -> pd.DataFrame:
     """Tabulate the calibration of the simulated rig."""
     return pd.DataFrame(
@@ -115,14 +99,7 @@ def table_4_b() -> pd.DataFrame:
     )
 
 
-@table(
-    "4.C",
-    caption="Settling to 60 deg in s, by four criteria: within 2 % and 5 % of the step, and within "
-    "2 and 5 deg; and the steady-state error in deg. Both controllers on their own linear model "
-    "and on the *simulated* rig. The dissertation prints 5 and 2.5 s for its simulation, 3.95 and "
-    "2.38 s for its rig, and errors of 5 and 2 deg, and does not name the criterion.",
-    provenance=Provenance.SIMULATED,
-)
+@table("4.C", Provenance.SIMULATED)
 def table_4_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
     """Tabulate settling times of both controllers under each criterion; ``logs`` gives two."""
     paths = logs or (kept_log("pid-actuator"), kept_log("pid-full"))

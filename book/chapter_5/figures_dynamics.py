@@ -81,52 +81,19 @@ def _draw(design: str, logs: tuple[Path | str, ...]) -> Figure:
     return drawn
 
 
-WAY = (
-    "Both models are fitted to the mean of (a) alone, Ludwick's with the estimated power of "
-    "{numref}`tab-5-2`; driven by the measured pressure they then predict (b). RMS of the linear "
-    "model first. The rig's spring is itself one of Ludwick's law."
-)
-
-
-@figure(
-    "5.6",
-    caption="Step tests of Design 1, Dragon Skin 20: seven runs of the *simulated* rig, their "
-    f"mean, and the two models. {WAY}",
-    alt="Two panels of angle over time. At 60 degrees both models lie on the mean of the runs. At "
-    "90 degrees Ludwick's model still does, while the linear one, fitted at 60, climbs to about "
-    "160 degrees.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("5.6", Provenance.SIMULATED)
 def figure_5_6(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the tests of Design 1; ``logs`` gives other runs, those of the fitted test first."""
     return _draw("Design 1", logs)
 
 
-@figure(
-    "5.7",
-    caption="Step tests of Design 2, Dragon Skin FX-Pro, on the *simulated* rig, as "
-    f"{{numref}}`fig-5-6`. {WAY}",
-    alt="Two panels of angle over time. At 60 degrees both models lie on the mean of the runs. At "
-    "90 degrees Ludwick's model ends a few degrees below it, the linear one some twenty above.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("5.7", Provenance.SIMULATED)
 def figure_5_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the tests of Design 2; ``logs`` as for `figure_5_6`."""
     return _draw("Design 2", logs)
 
 
-@figure(
-    "5.C",
-    caption="RMS error against the mean of seven *simulated* runs over the size of the step. "
-    "Identified at 60 deg: the models of Figures 5.6 and 5.7. One for all: the one linear model "
-    "that keeps the largest error of all steps up to this one least. Anew: identified at each "
-    "step. Dotted: 3 deg; and 60 and 80 deg, up to which the text calls the linear model valid.",
-    alt="Two panels with errors on a logarithmic scale. The linear model identified at 60 degrees "
-    "has a sharp dip there and is above three degrees on both sides. One linear model for all "
-    "steps passes three degrees at a step of about 40. Identified anew at each step, the linear "
-    "model stays below three degrees beyond 120.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("5.C", Provenance.SIMULATED)
 def figure_5_c() -> Figure:
     """Draw the errors of the models over the size of the step."""
     drawn = Figure(figsize=(WIDTH, 6.2))
@@ -154,14 +121,7 @@ def figure_5_c() -> Figure:
 
 @figure(
     "5.D",
-    caption="By how much Eq. (5.12) says too large a tip angle, over the true tip angle of a "
-    "uniform cantilever under a dead load at its tip, for five fractional powers: computed, with "
-    "I_n of Eq. (3.8), and for any finger, since its size and the load drop out. Points: where the "
-    "error reaches 5 and 10 %.",
-    alt="Five curves rise ever more steeply from zero error at zero angle. The linear law reaches "
-    "5 percent at about 21 degrees and 10 percent at about 29; the larger the exponent, the later: "
-    "with 2.5, at about 34 and 46 degrees.",
-    provenance=Provenance.PRINTED,
+    Provenance.PRINTED,
     sources="computed from Eq. (5.12) and the exact integral of the cantilever; nothing measured",
 )
 def figure_5_d() -> Figure:
@@ -181,12 +141,7 @@ def figure_5_d() -> Figure:
     return drawn
 
 
-@table(
-    "5.C",
-    caption="Do the equations agree where they should? The ratio is 1 where they do; n = 2.365 "
-    "where no other is named.",
-    provenance=Provenance.PRINTED,
-)
+@table("5.C", Provenance.PRINTED)
 def table_5_c() -> pd.DataFrame:
     """Tabulate what reduces to what."""
     return pd.DataFrame(
@@ -199,13 +154,7 @@ def _interval(found: Estimate) -> str:
     return f"{found.value:.3g} ± {(found.high - found.low) / 2:.1g}"
 
 
-@table(
-    "5.D",
-    caption="What the 60 deg test of the *simulated* rig identifies, with 95 % intervals that "
-    "suppose the model true: mass (N s^2), damping (N s), stiffness (N), all for the force by "
-    "pressure of Figure 3.9; the fit in percent; and the stiffness by Eq. (5.10) or (5.13).",
-    provenance=Provenance.SIMULATED,
-)
+@table("5.D", Provenance.SIMULATED)
 def table_5_d() -> pd.DataFrame:
     """Tabulate the identified parameters beside the stiffness that the text states."""
     rows = []
@@ -226,15 +175,7 @@ def table_5_d() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@table(
-    "5.E",
-    caption="RMS errors in deg: printed, and on the *simulated* rig by what is not printed. At 60: "
-    "both models identified there, as in Figures 5.6 and 5.7. Then the same with n of Table 5.2's "
-    "true column, or of Table 5.1. Each: identified at each test itself. At 30: identified at a "
-    "step to 30 deg. Step: driven by a step of the force that holds the set point in the place of "
-    "the measured pressure. Stated K: stiffness by Eq. (5.10) and (5.13).",
-    provenance=Provenance.SIMULATED,
-)
+@table("5.E", Provenance.SIMULATED)
 def table_5_e() -> pd.DataFrame:
     """Tabulate the eight errors under each protocol."""
     kept = step_protocols.kept_errors()

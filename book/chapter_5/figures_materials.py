@@ -57,18 +57,7 @@ def draw_curves(axes: Any, material: Material, power: float) -> None:
     axes.plot(strain, law / MPa, color=LUDWICK, ls="--", label="Ludwick, printed n")
 
 
-@figure(
-    "5.1",
-    caption="True stress over engineering strain of the ten elastomers, up to the largest force: "
-    "measured {cite:p}`marechal2020`; Ludwick's law with the printed E and n; and, for comparison, "
-    "Yeoh's hyperelastic law fitted to the whole curve.",
-    alt="Ten small panels, one an elastomer. The measured true stress rises ever more steeply with "
-    "strain, and Yeoh's law follows it throughout. Ludwick's law with the printed exponent stays "
-    "on it for Mold Star 16 FAST and 20T, leaves it upwards for the three stiffer Dragon Skins and "
-    "SORTA-Clear 40, and stays far below it at large strains for FX Pro and the three Ecoflexes.",
-    provenance=Provenance.PUBLIC,
-    sources=TESTS,
-)
+@figure("5.1", Provenance.PUBLIC, sources=TESTS)
 def figure_5_1() -> Figure:
     """Draw the stress-strain curves of the ten elastomers against Ludwick's law."""
     drawn, panels = sheet(8.2, 5, 2)
@@ -86,14 +75,7 @@ def figure_5_1() -> Figure:
     return drawn
 
 
-@figure(
-    "5.2",
-    caption="The fractional power n of Table 5.1 over the three properties that are to predict it, "
-    "with Spearman's rank correlation. The two held-out materials are drawn hollow.",
-    alt="Three scatter plots of ten points. n rises with Young's modulus and, most clearly, with "
-    "tensile strength; with mixed viscosity it rises too, but loosely.",
-    provenance=Provenance.PRINTED,
-)
+@figure("5.2", Provenance.PRINTED)
 def figure_5_2() -> Figure:
     """Draw n over Young's modulus, mixed viscosity and tensile strength."""
     drawn = Figure(figsize=(WIDTH, 3.0))
@@ -115,16 +97,7 @@ def figure_5_2() -> Figure:
     return drawn
 
 
-@figure(
-    "5.A",
-    caption="The fractional power that a fit gives, over the strain up to which the curve is used "
-    "(true stress, E held, least squares of the stress). Dashed: the printed n, with the band of "
-    "values whose 1/n rounds to the same two decimals.",
-    alt="Ten small panels. In seven of them the fitted exponent meets the printed one where "
-    "strains up to about six are used; for Dragon Skin 20, Dragon Skin 30 and SORTA-Clear 40 only "
-    "where the fit stops at a strain of two or three.",
-    provenance=Provenance.PUBLIC,
-)
+@figure("5.A", Provenance.PUBLIC)
 def figure_5_a() -> Figure:
     """Draw n over the longest strain of the fit."""
     drawn, panels = sheet(8.2, 5, 2, sharex=True)
@@ -150,14 +123,7 @@ def figure_5_a() -> Figure:
     return drawn
 
 
-@figure(
-    "5.B",
-    caption="Each of the ten materials predicted by Eq. (5.8) fitted to the other nine, and by the "
-    "mean of the nine: what a reader with a new material can expect.",
-    alt="Predicted over printed exponent. The points of Eq. (5.8) scatter about the diagonal; "
-    "Ecoflex 00-10 is predicted far too low. The means lie on a nearly flat line.",
-    provenance=Provenance.PRINTED,
-)
+@figure("5.B", Provenance.PRINTED)
 def figure_5_b() -> Figure:
     """Draw leave-one-out predictions over the printed values."""
     drawn, axes = sheet(4.0)
@@ -175,15 +141,7 @@ def figure_5_b() -> Figure:
     return drawn
 
 
-@table(
-    "5.1",
-    caption="The ten elastomers: the fractional power n as printed and as fitted to the public "
-    "tensile tests (true stress, strains up to 600 %, E held); modulus E (MPa) as printed beside "
-    "the tests' stress at 100 % strain; viscosity (Pa s); strength (MPa) as printed beside the "
-    "tests' largest stress.",
-    provenance=Provenance.PUBLIC,
-    sources=TESTS,
-)
+@table("5.1", Provenance.PUBLIC, sources=TESTS)
 def table_5_1_beside_tests() -> pd.DataFrame:
     """Tabulate the ten materials beside what their tensile tests give."""
     rows = []
@@ -210,12 +168,7 @@ def table_5_1_beside_tests() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@table(
-    "5.2",
-    caption="The two held-out materials: true and estimated fractional power, and the error that "
-    "the summary states. The recomputed true value is that of Table 5.1.",
-    provenance=Provenance.PRINTED,
-)
+@table("5.2", Provenance.PRINTED)
 def table_5_2() -> pd.DataFrame:
     """Tabulate what is printed of the two held-out materials, and what comes of it."""
     return pd.DataFrame(
@@ -229,12 +182,7 @@ def table_5_2() -> pd.DataFrame:
     )
 
 
-@table(
-    "5.A",
-    caption="Ways to read n from a curve, held against the printed column: the five best of 96, "
-    "and the same choices as the best with one of them changed.",
-    provenance=Provenance.PUBLIC,
-)
+@table("5.A", Provenance.PUBLIC)
 def table_5_a() -> pd.DataFrame:
     """Tabulate the best ways of fitting and their neighbours."""
     scores = ranking()
@@ -262,12 +210,7 @@ def table_5_a() -> pd.DataFrame:
     )
 
 
-@table(
-    "5.B",
-    caption="Errors of n when materials are predicted that the fit has not seen: each one, and "
-    "each two, of the ten held out in turn.",
-    provenance=Provenance.PRINTED,
-)
+@table("5.B", Provenance.PRINTED)
 def table_5_b() -> pd.DataFrame:
     """Tabulate leave-one-out and leave-two-out errors of three models."""
     rows = []

@@ -8,17 +8,7 @@ from book.companion.style import BLUE, GREY, VERMILION, sheet
 from softgrip.provenance import Provenance
 
 
-@figure(
-    "6.3",
-    caption="The scheme, redrawn. Ahead (blue): the target through filter and inverse. Back "
-    "(red): what the real fingers do beyond their model goes through the same, and is taken off "
-    "the command.",
-    alt="Block diagram. The target passes H P-dagger and gives u_ff; u_fb is subtracted and gives "
-    "u_c, which drives the real fingers and the model P side by side. The difference of their "
-    "angles, y_delta, passes H P-dagger and gives u_fb.",
-    provenance=Provenance.PRINTED,
-    drawing=True,
-)
+@figure("6.3", Provenance.PRINTED, drawing=True)
 def figure_6_3() -> Figure:
     """Draw the scheme of feedforward and feedback."""
     drawn, axes = sheet(2.5)

@@ -31,22 +31,7 @@ def _hand(axes: Any, held: Grasp) -> None:
     axes.set(aspect="equal", xlim=(-75, 75), ylim=(-105, 8), xlabel="mm", ylabel="mm")
 
 
-@figure(
-    "6.8",
-    caption="Grasps of an elastic disc of 40 mm. The dissertation shows four *photographs* here, "
-    "of a sliced banana, a mochi, an empty bottle and a toy; this is *simulated*. (a) The grasp of "
-    "a soft disc (50 N/m), at its end. (b) Force of the left finger from a soft disc to a stiff "
-    "one (2000 N/m), coordinated by the scheme of Figure 6.3 for 2/s: it goes for angles that the "
-    "disc bars, so that the force grows until it is stopped; a disc without damping rattles. (c) "
-    "The same with one fast push and no coordination: the force holds. (d) How far the disc (200 "
-    "N/m) is pushed aside by the finger that comes first, by each drive; with two equal fingers it "
-    "stays.",
-    alt="Above, a drawing of two bent fingers that hold a disc between them, the disc slightly "
-    "right of the middle. Middle, forces over time: with the scheme they start at about 1.3 "
-    "seconds and keep growing, with the push they start earlier and settle. Below, the place of "
-    "the disc: every drive pushes it about 1.3 millimetres to the right.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("6.8", Provenance.SIMULATED)
 def figure_6_8() -> Figure:
     """Draw grasps of soft and stiff discs."""
     drawn = Figure(figsize=(WIDTH, 7.6))

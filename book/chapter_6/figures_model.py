@@ -49,18 +49,7 @@ def push(time: float) -> tuple[float, float]:
     return (PUSH if PUSHED[0] <= time < PUSHED[1] else 0.0), 0.0
 
 
-@figure(
-    "6.6",
-    caption="The printed controller on the printed model, Eq. (6.26), without a limit of the "
-    "command: (a) continuous in all but name (5 ms); (b) at the stated 100 ms with a noise of 2 "
-    "deg RMS in each sample; (c) with the left finger held by a force that would bend it by 0.2 "
-    "rad more, from 1.4 to 2.4 s (size and length are ours). Dashed: proj(Y_d).",
-    alt="Three panels of two angles over time. The first finger rises past its target of 55 "
-    "degrees within half a second and comes back in about two seconds, the second one reaches 65 "
-    "degrees. Noise adds a ripple of about a degree. While the left finger is pushed it drifts "
-    "five degrees up and the right one five degrees down; after that both come back.",
-    provenance=Provenance.PRINTED,
-)
+@figure("6.6", Provenance.PRINTED)
 def figure_6_6() -> Figure:
     """Draw the step, the step with noise, and the step with a push."""
     drawn, panels = sheet(6.0, 3, 1, sharex=True, sharey=True)
@@ -80,17 +69,7 @@ def figure_6_6() -> Figure:
     return drawn
 
 
-@figure(
-    "6.A",
-    caption="What the projection at rest leaves out. (a) The share of a target that no input can "
-    "produce, over frequency: of equal angles for both fingers, and of proj(Y_d), which can be "
-    "reached at rest alone. (b) How far the fingers of Figure 6.6 (a) are apart on their way, with "
-    "both printed filters; dotted, the 2 deg that Section 6.4 reports for 45 deg.",
-    alt="Two panels. Above, one curve falls from 8 percent to nothing beyond 3 rad/s while the "
-    "other rises from nothing to 8 percent. Below, the difference of the fingers peaks at seven "
-    "degrees with the fast filter and at four to five with the slow one.",
-    provenance=Provenance.PRINTED,
-)
+@figure("6.A", Provenance.PRINTED)
 def figure_6_a() -> Figure:
     """Draw the unreachable share over frequency and the synchronization error over time."""
     drawn, (upper, lower) = sheet(4.8, 2, 1)
@@ -113,15 +92,7 @@ def figure_6_a() -> Figure:
     return drawn
 
 
-@figure(
-    "6.B",
-    caption="The printed filters H(s) and those that Glover and McFarlane's loop shaping gives for "
-    "the same target loops. The pole pair that the target loop must be given beyond its crossover "
-    "is not printed; here it is fitted to the printed filter.",
-    alt="Gain over frequency of four filters, in two pairs. All are one at low frequencies and "
-    "fall off steeply; the printed ones keep a higher gain up to the corner than the others.",
-    provenance=Provenance.PRINTED,
-)
+@figure("6.B", Provenance.PRINTED)
 def figure_6_b() -> Figure:
     """Draw the gain of the printed and the re-derived filters."""
     drawn, axes = sheet(3.4)
@@ -136,18 +107,7 @@ def figure_6_b() -> Figure:
     return drawn
 
 
-@figure(
-    "6.C",
-    caption="How far the loop with the filter for 4.8/s is from instability, over the sampling "
-    "period: one less the largest modulus of its poles, the worst of the corners of a box of "
-    "14.3 % in C_n and 5.9 % in K_n of each finger. Solid: H P-dagger made discrete by the "
-    "bilinear rule; dashed: as if its input were held. The command comes 0, 1 or 2 periods late, "
-    "which the model inside does not know. Dotted: the 100 ms of Section 6.4.",
-    alt="Curves of the stability margin over the period. With the bilinear rule and no delay it "
-    "stays positive throughout; with one period of delay it turns negative above 0.22 seconds and "
-    "with two above 0.14 seconds. With a held input it is negative from 0.05 seconds on.",
-    provenance=Provenance.PRINTED,
-)
+@figure("6.C", Provenance.PRINTED)
 def figure_6_c() -> Figure:
     """Draw the stability margin over the period, by discretisation and delay."""
     drawn, axes = sheet(3.4)
@@ -176,13 +136,7 @@ CRITERIA = {"2 %": 0.02, "5 %": 0.05, "10 %": 0.1, "1 deg": DEG}
 """Half widths of the settling band: shares of the target, or an angle."""
 
 
-@table(
-    "6.A",
-    caption="Equal angles for both fingers split by Eq. (6.24)-(6.25), in units of pi rad; the "
-    "print has 0.303 and 0.357 (once 0.35) with residuals 0.030 and -0.024, then 0.227 and 0.268 "
-    "with 0.023 and -0.018.",
-    provenance=Provenance.PRINTED,
-)
+@table("6.A", Provenance.PRINTED)
 def table_6_a() -> pd.DataFrame:
     """Tabulate projections and residuals."""
     rows = []
@@ -197,14 +151,7 @@ def table_6_a() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@table(
-    "6.B",
-    caption="The printed filters H(s), what can be read from them, and how near Glover and "
-    "McFarlane's design for the same target loop comes up to 100 rad/s, its roll-off fitted. "
-    "The plant inside is that of the factor of denominator less numerator, with what rounding the "
-    "coefficients to four digits can do; the mean finger has 2.555 and 3.335.",
-    provenance=Provenance.PRINTED,
-)
+@table("6.B", Provenance.PRINTED)
 def table_6_b() -> pd.DataFrame:
     """Tabulate the filters."""
     columns = {}
@@ -234,12 +181,7 @@ def table_6_b() -> pd.DataFrame:
     return pd.DataFrame(columns).rename_axis("for the target loop").reset_index()
 
 
-@table(
-    "6.C",
-    caption="Settling times of the two fingers on the linear model, in s, SPA 1 and SPA 2, by "
-    "criterion; printed are 0.6 (simulated), 0.7 and 1.1 (measured).",
-    provenance=Provenance.PRINTED,
-)
+@table("6.C", Provenance.PRINTED)
 def table_6_c() -> pd.DataFrame:
     """Tabulate settling times by criterion."""
     rows = []
@@ -264,14 +206,7 @@ def table_6_c() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@table(
-    "6.D",
-    caption="The step to π/3 at 100 ms and the motor's 5 rev/s. The unit of U is not printed: with "
-    "the printed gain of 7.831 the pump must move by 0.44 units times s. Given for both readings "
-    "of the unit: peak of the command over the limit, and where the fingers end, over their "
-    "targets, when the command is cut at the limit and the model inside knows that, or not.",
-    provenance=Provenance.PRINTED,
-)
+@table("6.D", Provenance.PRINTED)
 def table_6_d() -> pd.DataFrame:
     """Tabulate what the motor's limit does."""
     rows = []
@@ -299,13 +234,7 @@ def table_6_d() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@table(
-    "6.G",
-    caption="Robust stability over 14.3 % of C_n and 5.9 % of K_n of each finger: the largest "
-    "structured gain (1 is the limit), the largest uniform uncertainty that is tolerated, and the "
-    "worst decay rate or margin of the loop's poles over the corners of that box.",
-    provenance=Provenance.PRINTED,
-)
+@table("6.G", Provenance.PRINTED)
 def table_6_g() -> pd.DataFrame:
     """Tabulate robust stability."""
     around, inverse = box(GRIPPER, points=2), mean_inverse(GRIPPER)

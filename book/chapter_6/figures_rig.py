@@ -82,24 +82,7 @@ def _bound(axes: Any) -> None:
     axes.set_title("(b) bound on |W|")
 
 
-WEIGHT = (
-    "Eq. (6.18) with the mean of the runs as nominal: points from the records by FFT, lines from "
-    "the model that each run identifies. Yellow: where the command has a tenth of its largest "
-    "amplitude; dotted: what the text calls excited. Red: half the sampling frequency, above which "
-    "100 ms can tell nothing."
-)
-
-
-@figure(
-    "6.4",
-    caption="(a) Seven repeated steps in open loop of both fingers of the *simulated* gripper, and "
-    f"their means. (b) {WEIGHT} Dotted lines: the weight W_T of second order fitted to the models.",
-    alt="Above, angle over time: the left finger rises in two seconds to about 50 degrees, the "
-    "right one to about 39, each with a noisy bundle of runs. Below, deviations over frequency: "
-    "the identified models differ by up to seventeen percent, the points of the records lie above "
-    "one from four radians per second on.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("6.4", Provenance.SIMULATED)
 def figure_6_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw repeated steps and their deviations; ``logs`` gives runs of another gripper."""
     (runs,) = groups(logs, ("open",))
@@ -122,20 +105,7 @@ def figure_6_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     return drawn
 
 
-@figure(
-    "6.5",
-    caption="Steps of the left finger of the *simulated* gripper, one travel of the plunger at two "
-    "motor speeds. (a) Seven runs each, over the time since the push ended. (b) Eq. (6.18) from "
-    "the records by FFT, up to half the sampling frequency: the slow push excites next to nothing, "
-    "and what is left is the sensor's noise. Dotted: what the text calls excited. (c) Where 200 "
-    "runs each come to rest, less their mean; in brackets the standard deviation. The text has "
-    "1.14 deg at high and 2.41 deg at low speed: on this rig, with its creep, leak and friction, "
-    "the speed makes no difference.",
-    alt="Three panels. Both bundles of runs end at 50 degrees. The deviations of the slow steps "
-    "lie above those of the fast ones. The two histograms of errors at rest are alike, each with a "
-    "standard deviation of one and a half degrees.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("6.5", Provenance.SIMULATED)
 def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw steps at two speeds; ``logs`` gives other runs, those at high speed first.
 
@@ -164,21 +134,7 @@ def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     return drawn
 
 
-@figure(
-    "6.7",
-    caption="The *simulated* gripper, measured: seven runs (of the faster filter in (b), too) and "
-    "their mean. (a) Open loop. (b) The "
-    "scheme of Figure 6.3 with the two printed filters, on the model that the logs of (a) "
-    "identify, commands cut at 5 rev/s. (c) A push of a fifth of the air's torque on the left "
-    "finger (grey), with the slower filter. Thin lines: what of 45 deg for both is reachable. The "
-    "text has (b) settled in 0.7 s and 1.1 s, and the push at 1.4 s, when its fingers are at "
-    "rest; here they rest later.",
-    alt="Three panels of angle over time. In open loop both fingers rest after two seconds at 50 "
-    "and 39 degrees. With the filter for 2 per second they arrive without overshoot after nearly "
-    "three seconds; with that for 4.8 per second they swing beyond and back. A push moves the left "
-    "finger by two degrees and it comes back within a second.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("6.7", Provenance.SIMULATED)
 def figure_6_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the three experiments; ``logs`` gives others: open, 4.8/s, 2/s, pushed."""
     free, fast, slow, pushed = groups(logs, ("open", "fast", "slow", "push"))
@@ -214,18 +170,7 @@ def middle_and_ends(values: Floats, scale: float = 1.0, digits: int = 1) -> str:
     return f"{middle} [{low}, {high}]"
 
 
-@table(
-    "6.H",
-    caption="Controllers on the same *simulated* gripper, all cut at 5 rev/s, every 100 ms, with "
-    "the sensor's noise: median of 50 runs and 5 to 95 %. Settled: within 2 deg of the fingers' "
-    "own ends, s. Out of step: the largest difference of the shares of their ways, deg. Error: of "
-    "the ends from what one pump can reach of 45 deg for both, deg. Peak: of the motor, rev/s. "
-    "Tolerated: the largest error of each finger's response, of any kind, under which small "
-    "motions stay stable; a command sequence has no loop that could swing. The "
-    "model is the one that the logs in open loop identify; with *on (6.26)* the poles are those "
-    "printed.",
-    provenance=Provenance.SIMULATED,
-)
+@table("6.H", Provenance.SIMULATED)
 def table_6_h() -> pd.DataFrame:
     """Tabulate the controllers."""
     rows = []
@@ -246,15 +191,7 @@ def table_6_h() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@table(
-    "6.I",
-    caption="What the seven steps in open loop of the *simulated* gripper identify. It is "
-    "calibrated so that a step without noise identifies Eq. (6.26), and its spread so that seven "
-    "runs have about the printed deviations: what the sensor's noise adds to them is the finding. "
-    "Last line: half a second of a fifth of the air's torque, with the filter for 2/s, median of "
-    "50 runs.",
-    provenance=Provenance.SIMULATED,
-)
+@table("6.I", Provenance.SIMULATED)
 def table_6_i() -> pd.DataFrame:
     """Tabulate what is identified beside what is printed."""
     found, quiet = identified("open"), identified_without_noise()
@@ -277,14 +214,7 @@ def table_6_i() -> pd.DataFrame:
     )
 
 
-@table(
-    "6.J",
-    caption="Time in s after which both fingers of the *simulated* gripper stay within a band "
-    "about their own ends, median of 50 runs, and the overshoot; and what it would be without the "
-    "motor's limit of 5 rev/s, without the noise of the flex sensors, without both. The text has "
-    "0.7 s with the filter for 4.8/s and 1.1 s with that for 2/s, and no criterion.",
-    provenance=Provenance.SIMULATED,
-)
+@table("6.J", Provenance.SIMULATED)
 def table_6_j() -> pd.DataFrame:
     """Tabulate settling times by criterion."""
     rows = []
@@ -303,15 +233,7 @@ def table_6_j() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-@table(
-    "6.K",
-    caption="Standard deviation of where the left finger of the *simulated* gripper comes to rest, "
-    "over 200 runs, deg, by the motor speed of one push; printed are 1.14 deg at a higher and "
-    "2.41 deg at a lower speed, neither of which is given. Last column: the largest weight W_T, of "
-    "second order, fitted by Eq. (6.18) to the models that seven runs identify without noise; a "
-    "push that is slower than the finger identifies none.",
-    provenance=Provenance.SIMULATED,
-)
+@table("6.K", Provenance.SIMULATED)
 def table_6_k() -> pd.DataFrame:
     """Tabulate the spread over the speed."""
     return pd.DataFrame(

@@ -65,18 +65,7 @@ def outcome(name: str, *, pairs: int = PAIRS) -> Outcome:
     return simulate(grippers, None, trial)
 
 
-@figure(
-    "6.D",
-    caption="More fingers on one pump, over the bound of the spread of K_n, all asked for 45 deg. "
-    "(a) The largest error that a finger keeps at rest, with the best place of the pump. (b) The "
-    "least largest difference between two fingers on the way, as shares of what each can reach, "
-    "with all within 2 % after 1.5 s and the command within 5: no held command does better. The "
-    "fingers lie where the mean of as many sorted draws lies; thin line: the 5.9 % of the text.",
-    alt="Two panels of four curves, for two to five fingers. At a spread of 20 percent the error "
-    "at rest is three degrees with two fingers and six with five; the difference on the way is 10 "
-    "and 29 percent, and grows faster where the time begins to bind.",
-    provenance=Provenance.SIMULATED,
-)
+@figure("6.D", Provenance.SIMULATED)
 def figure_6_d() -> Figure:
     """Draw what more fingers and more spread cost."""
     drawn, (top, low) = sheet(5.0, 2, 1, sharex=True)
@@ -100,15 +89,9 @@ def figure_6_d() -> Figure:
 
 @figure(
     "6.E",
-    caption=f"{PAIRS:,} *simulated* pairs whose fingers deviate from Eq. (6.27) by up to 14.3 % in "
-    "C_n and 5.9 % in K_n, evenly and each on its own, with the commands within 5. (a) When both "
-    "fingers stay within 5 % of their own targets; the legend says how many do within 3 s. (b) The "
-    "largest difference between them at any time, as shares of their targets.",
-    alt="Two histograms of three controllers. Settling times spread from one second to three, and "
-    "many of the fast loop never settle. The largest difference peaks between 5 and 10 percent for "
-    "all three and reaches beyond 20 percent.",
-    provenance=Provenance.SIMULATED,
+    Provenance.SIMULATED,
     sources=f"drawn from seed {SEED}; plant and filters of Section 6.4",
+    pairs=lambda: f"{PAIRS:,}",
 )
 def figure_6_e() -> Figure:
     """Draw the histograms of settling time and synchronization."""
@@ -134,15 +117,7 @@ def figure_6_e() -> Figure:
 
 @figure(
     "6.F",
-    caption="What a held command can do at best for the pair of Eq. (6.27) at 45 deg: the least "
-    "largest difference between the fingers over the time after which both stay within 2 %. Three "
-    "curves, since the text does not say what U is. Each begins where no command of 100 ms settles "
-    "earlier. Triangle: the printed loop for 2/s; that for 4.8/s asks for 40, and cut to 5 it does "
-    "not settle within 3 s. Dotted: the 0.7 s of the text.",
-    alt="Three falling curves. With the command within 31.4 the first possible time is 0.8 s, "
-    "within 5 it is 1.2, within 1 it is 1.6. All are near 4 percent at 2 seconds. The loop for 2 "
-    "per second lies above them at 2.1 seconds and 7.5 percent.",
-    provenance=Provenance.PRINTED,
+    Provenance.PRINTED,
     sources="computed from Eq. (6.27) by linear programs; nothing measured",
 )
 def figure_6_f() -> Figure:
@@ -168,12 +143,9 @@ def figure_6_f() -> Figure:
 
 @table(
     "6.E",
-    caption=f"Pairs of Figure 6.E, of {PAIRS:,} *simulated* ones: how many settle within 3 s, each "
-    "finger in a band about its own target; the median time of those that settle within 5 %; the "
-    "largest difference between the fingers, median and 95th percentile. Last row: how many have a "
-    "place of the pump that rests both fingers in the band, which no controller can exceed.",
-    provenance=Provenance.SIMULATED,
+    Provenance.SIMULATED,
     sources=f"drawn from seed {SEED}; plant and filters of Section 6.4",
+    pairs=lambda: f"{PAIRS:,}",
 )
 def table_6_e() -> pd.DataFrame:
     """Tabulate what comes of the pairs."""
@@ -202,10 +174,7 @@ def table_6_e() -> pd.DataFrame:
 
 @table(
     "6.F",
-    caption="The least time in which any command that is held for 100 ms brings both fingers of "
-    "Eq. (6.27) from rest into a band about what they can reach of 45 deg, and keeps them there "
-    "until 3 s, in s; by the limit of the command. The text gives 0.7 and 1.1 s and no band.",
-    provenance=Provenance.PRINTED,
+    Provenance.PRINTED,
     sources="computed from Eq. (6.27) by linear programs; nothing measured",
 )
 def table_6_f() -> pd.DataFrame:

@@ -1,12 +1,14 @@
 """What a figure or a table is: its function, and what stands beside it wherever it is shown."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from functools import partial, update_wrapper
+import re
+import tomllib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import lru_cache, partial, update_wrapper
 from importlib import import_module
 from inspect import signature
 from pathlib import Path
-from typing import Literal, TypeVar
+from typing import Any, Literal, TypeVar
 
 from softgrip.errors import InvalidInputError, UnknownNameError
 from softgrip.logs.reader import read_log
@@ -16,15 +18,24 @@ Kind = Literal["figure", "table"]
 Make = TypeVar("Make", bound=Callable[..., object])
 
 
+BOOK = Path(__file__).parent.parent
+PLACE = re.compile(r"\{\{ (\w+) \}\}")
+"""Where a caption has a value that is computed."""
+
+
+@lru_cache
+def _captions(chapter: str) -> dict[str, dict[str, str]]:
+    with (BOOK / f"chapter_{chapter}" / "captions.toml").open("rb") as file:
+        return tomllib.load(file)
+
+
 @dataclass(frozen=True)
 class Exhibit:
-    """A numbered figure or table of the book."""
+    """A numbered figure or table of the book; its words stand in its chapter's captions.toml."""
 
     kind: Kind
     number: str
     """The dissertation's number, such as ``5.1``; letters (``5.A``) for those of our own."""
-    caption: str
-    alt: str
     make: Callable[..., object]
     provenance: Provenance
     """Class of what is shown; the data files that it is made from have their own."""
@@ -32,10 +43,29 @@ class Exhibit:
     """Data that are not files of the project, in words."""
     drawing: bool = False
     """Whether it is a drawing, such as a block diagram, with no numbers to give as CSV."""
+    values: Mapping[str, Callable[[], str]] = field(default_factory=dict)
+    """What makes the text of each place in its words."""
     repairs: tuple[str, ...] = ()
     """What was mended or is missing in the reader's own logs, one sentence each."""
     logs: tuple[Path, ...] = ()
     """What a reader put in the place of the book's logs."""
+
+    @property
+    def caption(self) -> str:
+        """What is shown, as MyST Markdown."""
+        return self._words("caption")
+
+    @property
+    def alt(self) -> str:
+        """The picture in words, for those who do not see it; none for a table."""
+        return self._words("alt")
+
+    def _words(self, what: str) -> str:
+        known = _captions(self.number.partition(".")[0])
+        if self.title not in known:
+            raise UnknownNameError("caption", self.title, list(known))
+        text = " ".join(known[self.title].get(what, "").split())
+        return PLACE.sub(lambda place: self.values[place[1]](), text)
 
     @property
     def name(self) -> str:
@@ -64,7 +94,6 @@ class Exhibit:
 
 
 EXHIBITS: dict[tuple[Kind, str], Exhibit] = {}
-BOOK = Path(__file__).parent.parent
 
 
 def chapters() -> list[str]:
@@ -72,19 +101,9 @@ def chapters() -> list[str]:
     return sorted(folder.name.removeprefix("chapter_") for folder in BOOK.glob("chapter_*"))
 
 
-def _register(
-    kind: Kind,
-    number: str,
-    caption: str,
-    alt: str,
-    provenance: Provenance,
-    sources: str,
-    drawing: bool = False,
-) -> Callable[[Make], Make]:
+def _register(kind: Kind, number: str, **told: Any) -> Callable[[Make], Make]:
     def keep(make: Make) -> Make:
-        EXHIBITS[kind, number] = Exhibit(
-            kind, number, caption, alt, make, provenance, sources, drawing
-        )
+        EXHIBITS[kind, number] = Exhibit(kind, number, make, **told)
         return make
 
     return keep
@@ -92,32 +111,31 @@ def _register(
 
 def figure(
     number: str,
-    *,
-    caption: str,
-    alt: str,
     provenance: Provenance,
+    *,
     sources: str = "",
     drawing: bool = False,
+    **values: Callable[[], str],
 ) -> Callable[[Make], Make]:
     """Register a function that returns a matplotlib Figure.
 
     Args:
         number: The dissertation's number, or chapter and a letter.
-        caption: What is shown, as MyST Markdown.
-        alt: The picture in words, for those who do not see it.
         provenance: Class of what is drawn.
         sources: Data that are not files below ``data/``, in words; those are found out when it is
             made.
         drawing: Whether no numbers stand behind it.
+        values: For each ``{{ name }}`` in its words, what makes the text that goes there.
     """
-    return _register("figure", number, caption, alt, provenance, sources, drawing)
+    told = {"provenance": provenance, "sources": sources, "drawing": drawing, "values": values}
+    return _register("figure", number, **told)
 
 
 def table(
-    number: str, *, caption: str, provenance: Provenance, sources: str = ""
+    number: str, provenance: Provenance, *, sources: str = "", **values: Callable[[], str]
 ) -> Callable[[Make], Make]:
     """Register a function that returns a pandas DataFrame; parameters as for `figure`."""
-    return _register("table", number, caption, "", provenance, sources)
+    return _register("table", number, provenance=provenance, sources=sources, values=values)
 
 
 def _register_chapter(chapter: str) -> None:
