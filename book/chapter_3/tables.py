@@ -5,7 +5,7 @@ import pandas as pd
 from book.chapter_3.numbers import estimated_frequency, rubber_weight
 from book.chapter_3.stepped import identified_row
 from book.companion.exhibit import table
-from book.companion.verdict import verdict_of
+from book.companion.verdict import outcome_of
 from softgrip.actuator import fem_results
 from softgrip.actuator.certificate import certified_design
 from softgrip.actuator.design import Bounds, DesignProblem, objective
@@ -66,7 +66,7 @@ def table_3_2_recomputed() -> pd.DataFrame:
                 "band": f"{row.low:.2f} to {row.high:.2f}",
                 "a printed": f"{row.section.top / MM:.1f}",
                 "a": f"{best.top / MM:.1f}",
-                "verdict of a": verdict_of(3, "table-3.2-top-{key}", k),
+                "outcome of a": outcome_of(3, "table-3.2-top-{key}", k),
                 "measured": f"{row.measured:.2f} ({row.measured / table_3_2()[0].measured:.2f})",
                 "simulated": f"{value:.2f} ± {margin:.2f} ({value / first:.2f})",
                 "poles": f"{-pole.real:.2f} ± {abs(pole.imag):.2f}j",
@@ -85,7 +85,7 @@ def table_3_3_recomputed() -> pd.DataFrame:
             "printed": f"{row.estimated:.2f}",
             "as stated": f"{estimated_frequency(name):.2f}",
             "reread": f"{estimated_frequency(name, FREQUENCY_POWER, as_printed=False):.2f}",
-            "verdict": verdict_of(3, "table-3.3-estimated-{key}", name),
+            "outcome": outcome_of(3, "table-3.3-estimated-{key}", name),
             "weight": f"{row.weight:.2f}",
             "rubber": f"{rubber_weight(name):.2f}",
         }

@@ -11,7 +11,7 @@ from scipy.stats import spearmanr
 
 from book.companion.exhibit import figure, table
 from book.companion.style import GREY, LUDWICK, MEASURED, OTHER, PRINTED, VERMILION, WIDTH, sheet
-from book.companion.verdict import ledger, verdict_of
+from book.companion.verdict import ledger, outcome_of
 from softgrip.arrays import Floats
 from softgrip.materials import ludwick, tensile, yeoh
 from softgrip.materials.facts import facts
@@ -157,7 +157,7 @@ def table_5_1_beside_tests() -> pd.DataFrame:
                 "n printed": f"{material.fractional_power:.3f}",
                 "n fitted": f"{fractional_power(material.name, BEST):.3f}",
                 "95 %": interval,
-                "verdict": verdict_of(5, "table-5.1-n-{key}", material.name),
+                "outcome": outcome_of(5, "table-5.1-n-{key}", material.name),
                 "E": f"{material.young_modulus / MPa:.2f}",
                 "at 100 %": f"{known.hundred_percent_modulus / MPa:.3f}",
                 "viscosity": f"{material.mixed_viscosity:g}",
@@ -175,8 +175,8 @@ def table_5_2() -> pd.DataFrame:
         {
             "what": entry.claim.what,
             "printed": f"{'' if entry.claim.relation == '=' else '< '}{entry.claim.printed}",
-            "recomputed": f"{entry.recomputed:.4g}",
-            "verdict": entry.verdict,
+            "recomputed": f"{entry.spread.value:.4g}" if entry.spread else "",
+            "outcome": entry.outcome,
         }
         for entry in ledger(5, ["Table 5.2", "Section 5.5"])
     )

@@ -5,73 +5,105 @@ from collections import Counter
 from dataclasses import dataclass
 from math import inf
 
-from book.companion.verdict import Entry, Verdict, comes_out, ledger
+from book.companion.claims import Basis, references
+from book.companion.verdict import Entry, Outcome, any_meets, ledger, yields
 
 MARKS = {
-    Verdict.REPRODUCED: "✓",
-    Verdict.CLOSE: "≈",
-    Verdict.ASSUMED: "◇",
-    Verdict.DIFFERS: "✗",
-    Verdict.MEASURED: "◉",
-    Verdict.CITED: "❝",
+    Outcome.REPRODUCED: "✓",
+    Outcome.CLOSE: "≈",
+    Outcome.CONTRADICTS: "✗",
+    Outcome.OPEN: "◇",
+    Outcome.GIVEN: "◉",
 }
-"""A verdict is told by mark and word, never by colour alone."""
+"""An outcome is told by mark and word, never by colour alone."""
 
 
-def chip(verdict: Verdict, text: str) -> str:
-    """Return a verdict as a small coloured label."""
-    return f'<span class="verdict {verdict}">{MARKS[verdict]} {html.escape(text)}</span>'
+def chip(outcome: Outcome, text: str) -> str:
+    """Return an outcome as a small coloured label."""
+    return f'<span class="verdict {outcome}">{MARKS[outcome]} {html.escape(text)}</span>'
 
 
 def _number(value: float | None) -> str:
     return "" if value is None else f"{value:.4g}"
 
 
-def _input(value: object) -> str:
-    return "the peak" if value == inf else str(value).replace("_", " ")
+def _range(low: float, high: float) -> str:
+    first, last = _number(low), _number(high)
+    return first if first == last else f"{first} to {last}"
+
+
+def _input(value: str) -> str:
+    return "the peak" if value == str(inf) else value.replace("_", " ")
+
+
+def _assumed(entry: Entry) -> str:
+    assumption, claim = entry.assumption, entry.claim
+    if assumption is None:
+        return ""
+    words = f"Assumed: {assumption.text}"
+    if assumption.fitted_to:
+        words += f" Fitted to {len(assumption.fitted_to)} printed numbers"
+        words += ", this one among them." if claim.id in assumption.fitted_to else "."
+    if assumption.tries > 1:
+        words += f" {assumption.tries} readings were tried."
+    if entry.under_assumption is not None:
+        words += f" It gives {_number(entry.under_assumption)}."
+    return words
+
+
+def _banded(entry: Entry) -> str:
+    claim = entry.claim
+    values = [value for _, value in entry.band if value == value]
+    if claim.band is None or not values:
+        return ""
+    at = ", ".join(_input(v) for v, value in entry.band if any_meets(claim, [value]))
+    inside = "lies within the band" if entry.in_band else "lies outside the band"
+    return f"{claim.band.what}: {_range(min(values), max(values))}; the print " + (
+        f"comes out at {at}." if at else f"{inside}."
+    )
 
 
 def _remarks(entry: Entry) -> str:
-    claim = entry.claim
-    parts = [claim.assumptions and f"Assumed: {claim.assumptions}", claim.note]
-    if claim.band:
-        values = [value for _, value in entry.band if value == value]
-        at = ", ".join(_input(v) for v, value in entry.band if comes_out(claim, value))
-        low, high = min(values), max(values)
-        inside = "within the band" if low < float(claim.printed) < high else "outside the band"
-        parts.append(
-            f"{claim.band.what}: {_number(low)} to {_number(high)}; the print "
-            + (f"comes out at {at}." if at else f"lies {inside}.")
-        )
-    text = " ".join(filter(None, parts))
-    if not text:
-        return ""
-    return f"<details><summary>remarks</summary>{html.escape(text)}</details>"
+    claim, author = entry.claim, entry.record()["author"]
+    used = ", ".join(
+        f'<a href="#claim-{name}">{name}</a>' for name in sorted(references(claim.arguments))
+    )
+    parts = [
+        claim.regardless,
+        _banded(entry),
+        _assumed(entry),
+        author and f"The author's {claim.author}: {author}.",
+        claim.needs and f"To check it: {claim.needs}",
+        claim.note,
+    ]
+    text = html.escape(" ".join(filter(None, parts)))
+    text += f" Stands on {used}." if used else ""
+    return f"<details><summary>remarks</summary>{text.strip()}</details>" if text else ""
 
 
 def _row(entry: Entry) -> str:
-    claim = entry.claim
+    claim, spread = entry.claim, entry.spread
     sign = "" if claim.relation == "=" else f"{claim.relation} "
     unit = "" if claim.unit == "1" else f" {claim.unit}"
+    value = _range(spread.low, spread.high) if spread else ""
+    basis = entry.basis or (claim.nature if claim.nature != "result" else "")
     return (
         f'<tr id="claim-{claim.id}"><td>{html.escape(claim.what)}{_remarks(entry)}</td>'
         f"<td class='number'>{html.escape(sign + claim.printed + unit)}</td>"
-        f"<td class='number'>{_number(entry.recomputed)}"
-        f"{'<br><small>simulated</small>' if entry.simulated else ''}</td>"
-        f"<td>{chip(entry.verdict, entry.verdict)}</td></tr>"
+        f"<td class='number'>{value}</td>"
+        f"<td>{chip(entry.outcome, entry.outcome)}</td><td>{basis}</td></tr>"
     )
 
 
 def verdict_table(entries: list[Entry]) -> str:
-    """Return entries as an HTML table, place by place: printed, recomputed, verdict, remarks."""
-    head = "".join(
-        f'<th scope="col">{name}</th>' for name in ("what", "printed", "recomputed", "verdict")
-    )
+    """Return entries as an HTML table, place by place: printed, recomputed, verdict."""
+    names = ("what", "printed", "recomputed", "outcome", "basis")
+    head = "".join(f'<th scope="col">{name}</th>' for name in names)
     places: dict[str, list[Entry]] = {}
     for entry in entries:
         places.setdefault(entry.claim.where, []).append(entry)
     bodies = "".join(
-        f'<tbody><tr><th colspan="4" scope="rowgroup">{html.escape(where)}</th></tr>'
+        f'<tbody><tr><th colspan="5" scope="rowgroup">{html.escape(where)}</th></tr>'
         f"{''.join(map(_row, found))}</tbody>"
         for where, found in places.items()
     )
@@ -79,15 +111,41 @@ def verdict_table(entries: list[Entry]) -> str:
 
 
 def counts_table(entries: list[Entry]) -> str:
-    """Return the counts by chapter and verdict as a Markdown table."""
+    """Return the counts by chapter and outcome as a Markdown table."""
     lines = [
-        "| chapter | " + " | ".join(Verdict) + " | claims |",
-        "|---" * (len(Verdict) + 2) + "|",
+        "| chapter | " + " | ".join(Outcome) + " | claims |",
+        "|---" * (len(Outcome) + 2) + "|",
     ]
     for chapter in sorted({entry.claim.chapter for entry in entries}):
-        count = Counter(e.verdict for e in entries if e.claim.chapter == chapter)
-        cells = [str(count[verdict]) for verdict in Verdict]
+        count = Counter(e.outcome for e in entries if e.claim.chapter == chapter)
+        cells = [str(count[outcome]) for outcome in Outcome]
         lines.append(f"| {chapter} | " + " | ".join(cells) + f" | {count.total()} |")
+    return "\n".join(lines)
+
+
+def basis_table(entries: list[Entry]) -> str:
+    """Return the counts by basis and outcome as a Markdown table."""
+    lines = ["| basis | " + " | ".join(Outcome) + " |", "|---" * (len(Outcome) + 1) + "|"]
+    for basis in Basis:
+        count = Counter(entry.outcome for entry in entries if entry.basis is basis)
+        if count:
+            cells = [str(count[outcome]) for outcome in Outcome]
+            lines.append(f"| {basis or 'none'} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def assumptions_table(entries: list[Entry]) -> str:
+    """Return the assumptions that judge, with what each was fitted to and what it brings out."""
+    lines = [
+        "| assumption | fitted to | brings out | of others | readings tried |",
+        "|---" * 5 + "|",
+    ]
+    for found in yields(entries):
+        words = found.assumption.text.replace("|", "\\|")
+        lines.append(
+            f"| {words} | {found.fitted} | {found.brings_out} | {found.of} "
+            f"| {found.assumption.tries} |"
+        )
     return "\n".join(lines)
 
 
@@ -104,8 +162,8 @@ class Html:
 def show_verdicts(chapter: int | None = None, *, where: tuple[str, ...] = ()) -> Html:
     """Show the ledger of a chapter (or all), or of the places that are named."""
     entries = ledger(chapter, where)
-    count = Counter(entry.verdict for entry in entries)
-    chips = " ".join(chip(v, f"{count[v]} {v}") for v in Verdict if count[v])
+    count = Counter(entry.outcome for entry in entries)
+    chips = " ".join(chip(found, f"{count[found]} {found}") for found in Outcome if count[found])
     return Html(f'<p class="counts">{chips}</p>{verdict_table(entries)}')
 
 
@@ -122,3 +180,13 @@ class Markdown:
 def show_counts() -> Markdown:
     """Show how the verdicts stand, by chapter."""
     return Markdown(counts_table(ledger()))
+
+
+def show_bases() -> Markdown:
+    """Show on what the outcomes stand."""
+    return Markdown(basis_table(ledger()))
+
+
+def show_assumptions() -> Markdown:
+    """Show the assumptions that judge, what they were fitted to, and what they bring out."""
+    return Markdown(assumptions_table(ledger()))

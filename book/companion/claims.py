@@ -1,38 +1,89 @@
 """Claims: the numbers that the dissertation prints, one file a chapter in ``data/claims/``.
 
-A claim says where a number stands, what it is, the string that is printed, and on what ground it
+A claim says where a number stands, what it is, the string that is printed, and on what basis it
 can be judged. Where one statement holds for many cells of a table, ``printed`` is a table from
 keys to strings, and ``{key}`` in the other fields stands for the key.
+
+Among a claim's arguments a string that is a number is printed, so it is rounded (`Printed`); a
+number is exact. ``@`` and an id stand for what another claim prints. The same file holds the
+assumptions that its claims name, and ``sources.toml`` what the author published elsewhere.
 """
 
 import tomllib
+from collections.abc import Iterable
 from dataclasses import dataclass, field, fields
-from typing import Any, Literal, get_args
+from enum import StrEnum
+from pathlib import Path
+from typing import Any, Literal, TypeVar, get_args
 
+from book.companion.printed import NUMBER, Printed
 from softgrip.errors import DataFileError, InvalidInputError, UnknownNameError
-from softgrip.provenance import data_file, data_folder
+from softgrip.provenance import data_file, data_folder, describe
+from softgrip.reads import remembered
 
-Basis = Literal["inputs", "measurement", "citation"]
+
+class Basis(StrEnum):
+    """What a recomputed number stands on."""
+
+    MODEL = "model"
+    """Stated inputs, through a law."""
+    PRINT = "print"
+    """Other printed numbers: a sum, a ratio, a count, a repeat."""
+    AUTHOR = "author"
+    """An input that the author published elsewhere."""
+    DATA = "data"
+    """Public measurements."""
+    ASSUMPTION = "assumption"
+    """An input that is nowhere printed, or read in another way than it is: written out."""
+    RIG = "rig"
+    """The simulated rig."""
+    NONE = ""
+    """Nothing: it can only be taken as it is given."""
+
+
+Nature = Literal["result", "setting", "part", "measurement", "citation"]
 Relation = Literal["=", "<", ">"]
 
 
 @dataclass(frozen=True)
 class Band:
-    """A sweep of an input that the dissertation leaves open."""
+    """A sweep of inputs that the dissertation leaves open."""
 
-    argument: str
-    values: tuple[Any, ...]
     what: str
-    """The input and its declared range in words."""
+    """The inputs and their declared ranges in words."""
+    argument: str = ""
+    values: tuple[Any, ...] = ()
+    cases: tuple[dict[str, Any], ...] = ()
+    """Instead of values of one argument: those of several, case by case."""
+
+
+@dataclass(frozen=True)
+class Assumption:
+    """An input that is nowhere printed, or is read in another way than it is printed."""
+
+    name: str
+    text: str
+    fitted_to: tuple[str, ...] = ()
+    """Ids of the claims whose prints it was chosen by: it cannot judge those."""
+    tries: int = 1
+    """Readings that were tried before it was chosen."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file that the author published elsewhere."""
+
+    name: str
+    repository: str
+    commit: str
+    file: str
+    sha256: str
+    """First 16 hexadecimal digits."""
 
 
 @dataclass(frozen=True)
 class Claim:
-    """One printed number.
-
-    The ground (``basis``) is what the dissertation gives to recompute it from: its own stated
-    ``inputs``, or nothing but a physical ``measurement``, or other literature (``citation``).
-    """
+    """One printed number."""
 
     id: str
     chapter: int
@@ -40,32 +91,46 @@ class Claim:
     what: str
     unit: str
     printed: str
-    basis: Basis
+    basis: Basis = Basis.NONE
+    nature: Nature = "result"
+    """A setting, a part, a measurement or a citation is given if nothing holds against it."""
     relation: Relation = "="
     """How the recomputed value should stand to the printed one."""
+    exact: bool = False
+    """Whether it is a count or a setting, which nobody has rounded."""
     function: str = ""
-    """Name of the function in ``book.chapter_N.numbers`` that recomputes it."""
+    """In ``book.chapter_N.numbers`` or ``book.companion.relations``: what recomputes it."""
     arguments: dict[str, Any] = field(default_factory=dict)
-    """From stated inputs; without them (``stated = false``) only the assumption is tried."""
-    stated: bool = True
+    assumption: str = ""
+    """Name of the assumption that ``assume`` puts in words."""
     assume: dict[str, Any] = field(default_factory=dict)
-    """Arguments that put an assumption in the place of an unstated or misprinted input."""
-    assumptions: str = ""
+    """Arguments that take an unprinted or misprinted input's place. On any other basis than the
+    assumption they are tried beside the stated ones, and judge nothing."""
+    author: str = ""
+    """Name of the source of an input on the basis ``author``."""
     band: Band | None = None
+    regardless: str = ""
+    """Why no unprinted input can bring the number out; without it such a number stays open."""
+    needs: str = ""
+    """Of a given number: what would have to be known to check it."""
+    tolerance: float = 1e-6
+    """Relative, of the frozen value: what another machine or library may change."""
     note: str = ""
+
+
+def _slug(pattern: str, key: object) -> str:
+    slug = "".join(c if c.isalnum() else "-" for c in str(key).lower())
+    return pattern.replace("{key}", slug)
 
 
 def _fill(value: Any, key: str) -> Any:
     if isinstance(value, str):
-        return value.replace("{key}", key)
+        return _slug(value, key) if value.startswith("@") else value.replace("{key}", key)
     if isinstance(value, dict):
         return {name: _fill(item, key) for name, item in value.items()}
+    if isinstance(value, list):
+        return [_fill(item, key) for item in value]
     return value
-
-
-def _id(pattern: str, key: object) -> str:
-    slug = "".join(c if c.isalnum() else "-" for c in str(key).lower())
-    return pattern.replace("{key}", slug)
 
 
 def _expand(row: dict[str, Any]) -> list[dict[str, Any]]:
@@ -76,7 +141,7 @@ def _expand(row: dict[str, Any]) -> list[dict[str, Any]]:
     return [
         {
             **{name: _fill(value, key) for name, value in row.items()},
-            "id": _id(row["id"], key),
+            "id": _slug(row["id"], key),
             "printed": string,
             "note": notes.get(key, row.get("note", "")),
         }
@@ -84,17 +149,61 @@ def _expand(row: dict[str, Any]) -> list[dict[str, Any]]:
     ]
 
 
-def _claim(row: dict[str, Any], path: object) -> Claim:
-    known = {f.name for f in fields(Claim)}
+Kind = TypeVar("Kind")
+
+
+def _made(kind: type[Kind], row: dict[str, Any], path: Path) -> Kind:
+    known = {f.name for f in fields(kind)}  # type: ignore[arg-type]
     if unknown := set(row) - known:
         raise DataFileError(
-            path, expected=f"fields among {sorted(known)}", got=f"{sorted(unknown)} in {row['id']}"
+            path, expected=f"fields among {sorted(known)}", got=f"{sorted(unknown)} in {row}"
         )
-    if (basis := row.get("basis")) not in get_args(Basis):
-        raise DataFileError(path, expected=f"basis of {get_args(Basis)}", got=f"{basis!r}")
+    held = {name: tuple(v) if isinstance(v, list) else v for name, v in row.items()}
+    return kind(**held)
+
+
+def _claim(row: dict[str, Any], path: Path) -> Claim:
+    if (basis := row.get("basis", "")) not in [*Basis]:
+        raise DataFileError(path, expected=f"basis of {[*Basis]}", got=f"{basis!r}")
+    if (nature := row.get("nature", "result")) not in get_args(Nature):
+        raise DataFileError(path, expected=f"nature of {get_args(Nature)}", got=f"{nature!r}")
     if band := row.get("band"):
-        row = {**row, "band": Band(band["argument"], tuple(band["values"]), band["what"])}
-    return Claim(**row)
+        row = {**row, "band": _made(Band, band, path)}
+    return _made(Claim, {**row, "basis": Basis(basis)}, path)
+
+
+def _unlike(items: Iterable[Kind], name: str, path: Path) -> dict[str, Kind]:
+    found: dict[str, Kind] = {}
+    for item in items:
+        if (key := getattr(item, name)) in found:
+            raise DataFileError(path, expected=f"{name}s that differ", got=f"{key} twice")
+        found[key] = item
+    return found
+
+
+@remembered
+def _file(path: Path) -> tuple[dict[str, Claim], dict[str, Assumption]]:
+    chapter = _chapter(describe(path).path)
+    with path.open("rb") as stream:
+        read = tomllib.load(stream)
+    cells = (cell for row in read["claim"] for cell in _expand(row))
+    claims = _unlike((_claim({**cell, "chapter": chapter}, path) for cell in cells), "id", path)
+    named = (_made(Assumption, row, path) for row in read.get("assumption", []))
+    assumptions = _unlike(named, "name", path)
+    for claim in claims.values():
+        if claim.assumption and claim.assumption not in assumptions:
+            raise DataFileError(
+                path, expected=f"an assumption among {sorted(assumptions)}", got=claim.assumption
+            )
+    return claims, assumptions
+
+
+def _chapter(path: Path) -> int:
+    return int(path.stem.removeprefix("chapter_"))
+
+
+def _files() -> dict[int, Path]:
+    return {_chapter(path): path for path in sorted((data_folder() / "claims").glob("chapter_*"))}
 
 
 def read_claims(chapter: int | None = None) -> list[Claim]:
@@ -102,26 +211,27 @@ def read_claims(chapter: int | None = None) -> list[Claim]:
 
     Raises:
         InvalidInputError: If the chapter has no claims.
-        DataFileError: If a file has an unknown field, an unknown basis, or two claims of one id.
+        DataFileError: If a file has an unknown field, basis or assumption, or one id twice.
     """
-    files = sorted(path.name for path in (data_folder() / "claims").glob("chapter_*.toml"))
-    if chapter is not None:
-        name = f"chapter_{chapter}.toml"
-        if name not in files:
-            raise InvalidInputError("chapter", expected=f"one with claims: {files}", got=chapter)
-        files = [name]
-    found: dict[str, Claim] = {}
-    for name in files:
-        path = data_file(f"claims/{name}").path
-        with path.open("rb") as stream:
-            rows = tomllib.load(stream)["claim"]
-        number = int(path.stem.removeprefix("chapter_"))
-        for cell in (cell for row in rows for cell in _expand(row)):
-            claim = _claim({**cell, "chapter": number}, path)
-            if claim.id in found:
-                raise DataFileError(path, expected="ids that differ", got=f"{claim.id} twice")
-            found[claim.id] = claim
-    return list(found.values())
+    files = _files()
+    if chapter is not None and chapter not in files:
+        raise InvalidInputError("chapter", expected=f"one with claims: {[*files]}", got=chapter)
+    paths = [path for number, path in files.items() if chapter in (None, number)]
+    return [claim for path in paths for claim in _file(path)[0].values()]
+
+
+def assumptions(chapter: int) -> dict[str, Assumption]:
+    """Return the assumptions that the claims of a chapter name, by name."""
+    return _file(_files()[chapter])[1]
+
+
+@remembered
+def sources() -> dict[str, Source]:
+    """Return the files that the author published elsewhere, by name."""
+    path = data_file("claims/sources.toml").path
+    with path.open("rb") as stream:
+        rows = tomllib.load(stream)["source"]
+    return _unlike((_made(Source, row, path) for row in rows), "name", path)
 
 
 def claim_of(chapter: int, pattern: str, key: object = "") -> Claim:
@@ -131,6 +241,45 @@ def claim_of(chapter: int, pattern: str, key: object = "") -> Claim:
         UnknownNameError: If the chapter has no such claim; the message lists those it has.
     """
     known = {claim.id: claim for claim in read_claims(chapter)}
-    if (name := _id(pattern, key)) not in known:
+    if (name := _slug(pattern, key)) not in known:
         raise UnknownNameError(f"claim of Chapter {chapter}", name, list(known))
     return known[name]
+
+
+def printed(id: str) -> Printed:
+    """Return what a claim of any chapter prints.
+
+    Raises:
+        UnknownNameError: If there is no such claim.
+    """
+    known = {claim.id: claim for claim in read_claims()}
+    if id not in known:
+        raise UnknownNameError("claim", id, list(known))
+    return Printed(known[id].printed, exact=known[id].exact)
+
+
+def resolved(argument: Any) -> Any:
+    """Return an argument with its printed numbers as such, those of other claims among them."""
+    if isinstance(argument, str):
+        if argument.startswith("@"):
+            return printed(argument[1:])
+        return Printed(argument) if NUMBER.fullmatch(argument) else argument
+    if isinstance(argument, dict):
+        return {name: resolved(item) for name, item in argument.items()}
+    if isinstance(argument, list | tuple):
+        return tuple(map(resolved, argument))
+    return argument
+
+
+def references(argument: Any) -> set[str]:
+    """Return the ids of the claims that an argument names.
+
+    >>> sorted(references({"part": "@a", "parts": ["@b", "2.5"]}))
+    ['a', 'b']
+    """
+    if isinstance(argument, str):
+        return {argument[1:]} if argument.startswith("@") else set()
+    inner = argument.values() if isinstance(argument, dict) else argument
+    return (
+        set().union(*map(references, inner)) if isinstance(argument, dict | list | tuple) else set()
+    )

@@ -1,27 +1,71 @@
-"""``python -m book.companion.ledger``: judge every claim, write ``ledger.json``, print the counts.
+"""``python -m book.companion.ledger``: judge every claim, write ledger.json and ledger.csv.
 
-``--accept`` also writes the verdicts that the tests expect from now on, and the counts in the
-README; the change then shows in the diff.
+``--accept`` also writes the outcomes and values that the tests expect from now on, and the counts
+in the README; the change then shows in the diff.
 """
 
 import argparse
+import csv
 import json
 import re
 from collections import Counter
+from collections.abc import Mapping
+from math import isclose
 from pathlib import Path
 
 from book.companion.chips import counts_table
-from book.companion.verdict import ledger
+from book.companion.verdict import Entry, ledger
 from softgrip.kept import write_data
 from softgrip.provenance import Provenance, data_folder, data_rows
 
 EXPECTED = "claims/expected.csv"
+FROZEN = ("id", "outcome", "basis", "value", "low", "high", "under_assumption")
+"""Fields of a record that are frozen: the words, and the numbers that they hang on."""
 BEGIN, END = "<!-- verdicts: written by make ledger -->", "<!-- end of verdicts -->"
 
 
-def expected() -> dict[str, str]:
-    """Read the verdicts that were accepted, by claim."""
-    return {row["id"]: row["verdict"] for row in data_rows(EXPECTED)}
+def frozen(entry: Entry) -> dict[str, str]:
+    """Return what is frozen of an entry, as text, numbers to nine digits."""
+    record = entry.record()
+    words = {name: record[name] for name in FROZEN}
+    return {
+        name: f"{value:.9g}" if isinstance(value, float) else "" if value is None else str(value)
+        for name, value in words.items()
+    }
+
+
+def changes(entry: Entry, accepted: Mapping[str, str]) -> dict[str, str]:
+    """Return what is not as it was accepted: other words, numbers beyond the claim's tolerance."""
+
+    def alike(now: str, was: str) -> bool:
+        try:
+            return isclose(float(now), float(was), rel_tol=entry.claim.tolerance)
+        except ValueError:
+            return now == was
+
+    now = frozen(entry)
+    return {
+        name: f"{was} -> {now[name]}"
+        for name, was in accepted.items()
+        if now[name] != was and not alike(now[name], was)
+    }
+
+
+def expected() -> dict[str, dict[str, str]]:
+    """Read what was accepted, by claim: see `frozen`."""
+    return {row["id"]: row for row in data_rows(EXPECTED)}
+
+
+def write_csv(path: Path, entries: list[Entry]) -> None:
+    """Write the records as a table; what is a list or a table is written as JSON."""
+    records = [entry.record() for entry in entries]
+    with path.open("w", encoding="utf-8", newline="") as stream:
+        writer = csv.DictWriter(stream, list(records[0]))
+        writer.writeheader()
+        for record in records:
+            writer.writerow(
+                {n: json.dumps(v) if isinstance(v, list) else v for n, v in record.items()}
+            )
 
 
 def write_counts(readme: Path, table: str) -> None:
@@ -40,13 +84,15 @@ def main() -> None:
     entries = ledger()
     asked.into.parent.mkdir(parents=True, exist_ok=True)
     asked.into.write_text(json.dumps([e.record() for e in entries], indent=1) + "\n")
-    for verdict, count in Counter(entry.verdict for entry in entries).most_common():
-        print(f"{count:5} {verdict}")
-    print(f"{len(entries):5} claims, written to {asked.into}")
+    write_csv(asked.into.with_suffix(".csv"), entries)
+    for outcome, count in Counter(entry.outcome for entry in entries).most_common():
+        print(f"{count:5} {outcome}")
+    print(f"{len(entries):5} claims, written to {asked.into} and, as a table, .csv")
     if asked.accept:
+        rows = [",".join(frozen(entry).values()) + "\n" for entry in entries]
         write_data(
             data_folder() / EXPECTED,
-            "id,verdict\n" + "".join(f"{e.claim.id},{e.verdict}\n" for e in entries),
+            ",".join(FROZEN) + "\n" + "".join(rows),
             source="book.companion.ledger --accept",
             provenance=Provenance.PRINTED,
         )

@@ -20,7 +20,7 @@ import pandas as pd
 from book.companion.chips import chip
 from book.companion.exhibit import Exhibit, exhibit, with_logs
 from book.companion.save import Made, make, save, svg
-from book.companion.verdict import Verdict, ledger
+from book.companion.verdict import Outcome, ledger
 
 FOLDER = Path("_build/figures")
 """Where the book's build, which runs pages in the folder of the book, puts their pictures."""
@@ -43,7 +43,7 @@ def _html_table(frame: pd.DataFrame) -> str:
 
 
 def _cell(value: object) -> str:
-    return chip(value, value) if isinstance(value, Verdict) else str(value)
+    return chip(value, value) if isinstance(value, Outcome) else str(value)
 
 
 def image(data: bytes, kind: str, alt: str) -> str:
@@ -75,8 +75,8 @@ class Shown:
         if not (item.in_dissertation and self.numbered):
             return ""
         entries = ledger(int(item.number.split(".")[0]), [item.title])
-        count = Counter(entry.verdict for entry in entries)
-        return " ".join(chip(verdict, f"{count[verdict]} {verdict}") for verdict in count)
+        count = Counter(entry.outcome for entry in entries)
+        return " ".join(chip(outcome, f"{count[outcome]} {outcome}") for outcome in count)
 
     def _facts(self) -> list[str]:
         item, data = self.exhibit, self.made.data

@@ -1,54 +1,86 @@
-"""Verdicts: what comes of a claim when it is recomputed, by rule and never by hand."""
+"""Verdicts: what comes of a claim when it is recomputed, and on what basis; by rule, never by hand.
+
+The value is recomputed with the rounding of its printed inputs carried through (`carried`); the
+print stands for an interval too. They meet, or they do not: the rest is what may be concluded.
+"""
 
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from enum import StrEnum
 from importlib import import_module
+from itertools import chain
 from typing import Any, TypeVar
 
-from book.companion.claims import Claim, claim_of, read_claims
+from book.companion import relations
+from book.companion.claims import (
+    Assumption,
+    Basis,
+    Claim,
+    assumptions,
+    claim_of,
+    read_claims,
+    references,
+    resolved,
+    sources,
+)
+from book.companion.printed import Printed, Spread, carried
 from softgrip.errors import DataFileError
 
 CLOSE = 0.05
-"""Largest relative difference that is still called close."""
+"""Largest relative difference of a model that is still called close."""
 
 
-class Verdict(StrEnum):
+class Outcome(StrEnum):
     """What came of a claim."""
 
     REPRODUCED = "reproduced"
-    """From stated inputs alone, the value rounds to the printed string."""
+    """It comes out, within the rounding of its inputs."""
     CLOSE = "close"
-    """From stated inputs, not to the last digit, but within 5 %."""
-    ASSUMED = "assumed"
-    """It comes out under a named assumption for an unstated or misprinted input."""
-    DIFFERS = "differs"
-    """The stated inputs give another number, or no named assumption brings it out."""
-    MEASURED = "measured"
-    """A physical measurement: there is nothing to recompute it from."""
-    CITED = "cited"
-    """Taken from other literature by the dissertation."""
+    """A model comes within 5 %; never of a bound, a count or arithmetic."""
+    CONTRADICTS = "contradicts"
+    """What is printed excludes it, whatever the unprinted inputs are."""
+    OPEN = "open"
+    """Inputs that decide are not printed."""
+    GIVEN = "given"
+    """A setting, a part or a measurement: there is nothing to hold it against."""
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A claim with its recomputed value and verdict."""
+    """A claim with what came of it."""
 
     claim: Claim
-    recomputed: float | None
-    verdict: Verdict
+    outcome: Outcome
+    spread: Spread | None = None
+    """The recomputed value, with what rounding leaves open; None if nothing recomputes it."""
+    band: tuple[tuple[str, float], ...] = ()
+    """(inputs, value) over the declared range of unprinted inputs."""
     under_assumption: float | None = None
-    simulated: bool = False
-    """Whether the recomputed value is one of the simulated rig."""
-    band: tuple[tuple[Any, float], ...] = ()
-    """(input, value) over the declared range of an unstated input."""
+    """What comes out if an assumption takes the place of stated inputs."""
     function: str = ""
     """What recomputed it, with its module; empty if nothing did."""
 
+    @property
+    def basis(self) -> Basis:
+        """On what it is judged."""
+        return self.claim.basis
+
+    @property
+    def assumption(self) -> Assumption | None:
+        """The assumption that it names."""
+        name = self.claim.assumption
+        return assumptions(self.claim.chapter)[name] if name else None
+
+    @property
+    def in_band(self) -> bool | None:
+        """Whether the print lies in the band; None without one."""
+        values = [value for _, value in self.band if value == value]
+        return any_meets(self.claim, values) if values else None
+
     def record(self) -> dict[str, Any]:
         """Return the entry as plain values, as ``ledger.json`` holds it."""
-        claim = self.claim
-        band = claim.band
+        claim, spread, assumed = self.claim, self.spread, self.assumption
+        source = sources()[claim.author] if claim.author else None
         return {
             "id": claim.id,
             "chapter": claim.chapter,
@@ -57,111 +89,139 @@ class Entry:
             "unit": claim.unit,
             "relation": claim.relation,
             "printed": claim.printed,
-            "recomputed": self.recomputed,
-            "simulated": self.simulated,
-            "verdict": str(self.verdict),
-            "assumptions": claim.assumptions,
+            "outcome": str(self.outcome),
+            "basis": str(self.basis),
+            "nature": claim.nature,
+            "value": spread.value if spread else None,
+            "low": spread.low if spread else None,
+            "high": spread.high if spread else None,
+            "assumption": assumed.text if assumed else "",
+            "fitted_to": [*assumed.fitted_to] if assumed else [],
+            "tries": assumed.tries if assumed else 0,
             "under_assumption": self.under_assumption,
-            "band": {"what": band.what, "values": [list(pair) for pair in self.band]}
-            if band
-            else None,
+            "band": claim.band.what if claim.band else "",
+            "band_values": [[*pair] for pair in self.band],
+            "in_band": self.in_band,
+            "stands_on": sorted(references(claim.arguments)),
+            "author": f"{source.repository} {source.file} at {source.commit}" if source else "",
+            "regardless": claim.regardless,
+            "needs": claim.needs,
             "note": claim.note,
             "function": self.function,
         }
 
 
-def decimals(printed: str) -> int:
-    """Count the decimals of a printed number.
+def meets(claim: Claim, low: float, high: float) -> bool | None:
+    """Tell whether values between two stand to the print as printed; None if some do, some not."""
+    number = Printed(claim.printed, exact=claim.exact)
+    if claim.relation == "=":
+        # The error of writing a number in binary is no difference.
+        slack = number.half + 1e-9 * max(abs(number), number.half)
+        return low <= number + slack and high >= number - slack
+    holds = [value < number if claim.relation == "<" else value > number for value in (low, high)]
+    return holds[0] if holds[0] == holds[1] else None
 
-    >>> decimals("2.365"), decimals("96"), decimals("6.61e-4")
-    (3, 0, 6)
-    """
-    mantissa, _, exponent = printed.lower().partition("e")
-    return len(mantissa.partition(".")[2]) - int(exponent or 0)
+
+def any_meets(claim: Claim, values: Collection[float]) -> bool:
+    """Tell whether the print lies among values, or stands to one of them as printed."""
+    low, high = min(values), max(values)
+    return meets(claim, low, high) is not False
 
 
-def comes_out(claim: Claim, value: float) -> bool:
-    """Tell whether a value rounds to the printed string (or stands to it as printed)."""
+def _outcome(claim: Claim, spread: Spread | None, fitted: bool) -> Outcome:
+    if spread is None or (claim.basis is Basis.RIG and claim.nature != "result"):
+        return Outcome.GIVEN
+    holds = meets(claim, spread.low, spread.high)
+    if claim.basis is Basis.RIG or fitted or holds is None:
+        return Outcome.OPEN
+    if holds:
+        return Outcome.REPRODUCED
     number = float(claim.printed)
-    if claim.relation == "<":
-        return value < number
-    if claim.relation == ">":
-        return value > number
-    # Half a unit of the last place, and the error of writing it in binary.
-    return abs(value - number) <= 0.5 * 10.0 ** -decimals(claim.printed) * (1 + 1e-9)
-
-
-def _from_inputs(claim: Claim, stated: float | None, assumed: float | None) -> Verdict:
-    if stated is not None:
-        if comes_out(claim, stated):
-            return Verdict.REPRODUCED
-        if abs(stated - float(claim.printed)) <= CLOSE * abs(float(claim.printed)):
-            return Verdict.CLOSE
-    if assumed is not None and comes_out(claim, assumed):
-        return Verdict.ASSUMED
-    return Verdict.DIFFERS
+    may_be_close = claim.relation == "=" and not claim.exact and claim.basis is not Basis.PRINT
+    if may_be_close and abs(spread.value - number) <= CLOSE * abs(number):
+        return Outcome.CLOSE
+    unprinted = claim.basis in (Basis.AUTHOR, Basis.DATA, Basis.ASSUMPTION) or claim.band
+    return Outcome.OPEN if unprinted and not claim.regardless else Outcome.CONTRADICTS
 
 
 Function = TypeVar("Function", bound=Callable[..., float])
 
 
 def simulated(function: Function) -> Function:
-    """Mark a recomputation as simulated: it never counts as coming from stated inputs."""
+    """Mark a recomputation as simulated: what it gives stands on the rig alone."""
     function.simulated = True  # type: ignore[attr-defined]
     return function
 
 
 def _function(claim: Claim) -> Callable[..., float]:
     module = import_module(f"book.chapter_{claim.chapter}.numbers")
-    found: Callable[..., float] | None = getattr(module, claim.function, None)
+    found: Callable[..., float] | None = getattr(
+        module, claim.function, getattr(relations, claim.function, None)
+    )
     if found is None:
         raise DataFileError(
-            claim.id, expected=f"a function of {module.__name__}", got=claim.function
-        )
-    if getattr(found, "simulated", False) and claim.basis == "inputs" and claim.stated:
-        raise DataFileError(
-            claim.id, expected="a measurement or an assumption, if it is simulated", got="inputs"
+            claim.id,
+            expected=f"a function of {module.__name__} or {relations.__name__}",
+            got=claim.function,
         )
     return found
 
 
+def _check(claim: Claim, function: Callable[..., float]) -> None:
+    """Refuse a claim that says of itself what its fields do not bear out."""
+    rules = {
+        "a basis": claim.basis is not Basis.NONE,
+        "the basis 'rig' exactly if it is simulated": (
+            getattr(function, "simulated", False) == (claim.basis is Basis.RIG)
+        ),
+        "assume and an assumption's name together": bool(claim.assume) == bool(claim.assumption),
+        "a named assumption on the basis 'assumption'": (
+            claim.basis is not Basis.ASSUMPTION or bool(claim.assumption)
+        ),
+        "a source on the basis 'author' and nowhere else": (
+            (claim.basis is Basis.AUTHOR) == bool(claim.author)
+        ),
+        "nothing 'regardless' on an assumption or the rig": (
+            not claim.regardless or claim.basis not in (Basis.ASSUMPTION, Basis.RIG)
+        ),
+    }
+    for rule, kept in rules.items():
+        if not kept:
+            raise DataFileError(claim.id, expected=rule, got=f"{claim}")
+
+
 def judge(claim: Claim) -> Entry:
-    """Recompute a claim and give the verdict that follows.
+    """Recompute a claim and conclude what follows.
 
     Raises:
-        DataFileError: If the claim can be recomputed from inputs, but names no function that does,
-            or one that does not exist, or tries an assumption without writing it out.
+        DataFileError: If a result names no function, or one that does not exist, or the claim's
+            basis is not what its other fields say.
     """
     if not claim.function:
-        if claim.basis == "inputs":
+        if claim.basis is not Basis.NONE or claim.nature == "result":
             raise DataFileError(claim.id, expected="a function that recomputes it", got="none")
-        verdict = Verdict.CITED if claim.basis == "citation" else Verdict.MEASURED
-        return Entry(claim, None, verdict)
-    if bool(claim.assume) != bool(claim.assumptions):
-        raise DataFileError(
-            claim.id, expected="assume and assumptions together", got="one without the other"
-        )
+        return Entry(claim, Outcome.GIVEN)
     function = _function(claim)
-    stated = float(function(**claim.arguments)) if claim.stated else None
-    assumed = float(function(**claim.arguments | claim.assume)) if claim.assume else None
-    band: tuple[tuple[Any, float], ...] = ()
+    _check(claim, function)
+    stated, assume = resolved(claim.arguments), resolved(claim.assume)
+    judged = stated | assume if claim.basis is Basis.ASSUMPTION else stated
+    spread = carried(function, judged)
+    band: tuple[tuple[str, float], ...] = ()
     if swept := claim.band:
-        given = claim.arguments | claim.assume
-        band = tuple((v, float(function(**given | {swept.argument: v}))) for v in swept.values)
-    if claim.basis == "citation":
-        verdict = Verdict.CITED
-    elif claim.basis == "measurement":
-        verdict = Verdict.MEASURED
-    else:
-        verdict = _from_inputs(claim, stated, assumed)
-    recomputed = assumed if stated is None or verdict is Verdict.ASSUMED else stated
+        cases = swept.cases or tuple({swept.argument: value} for value in swept.values)
+        band = tuple(
+            (", ".join(map(str, case.values())), float(function(**judged | resolved(case))))
+            for case in cases
+        )
+    assumed = assume and claim.basis is not Basis.ASSUMPTION
+    named = assumptions(claim.chapter).get(claim.assumption)
+    fitted = claim.basis is Basis.ASSUMPTION and named is not None and claim.id in named.fitted_to
     return Entry(
         claim,
-        recomputed,
-        verdict,
-        assumed,
-        getattr(function, "simulated", False),
+        _outcome(claim, spread, fitted),
+        spread,
         band,
+        float(function(**stated | assume)) if assumed else None,
         f"{function.__module__}.{function.__name__}",
     )
 
@@ -172,6 +232,37 @@ def ledger(chapter: int | None = None, where: Collection[str] = ()) -> list[Entr
     return [judge(claim) for claim in claims if not where or claim.where in where]
 
 
-def verdict_of(chapter: int, claim: str, key: object = "") -> Verdict:
+def outcome_of(chapter: int, claim: str, key: object = "") -> Outcome:
     """Judge one claim, by id and key as for `claim_of`."""
-    return judge(claim_of(chapter, claim, key)).verdict
+    return judge(claim_of(chapter, claim, key)).outcome
+
+
+@dataclass(frozen=True)
+class Yield:
+    """What an assumption brings out, and what it was fitted to."""
+
+    assumption: Assumption
+    fitted: int
+    brings_out: int
+    of: int
+    """Claims that it judges, those that it was fitted to left out."""
+
+
+def yields(entries: Collection[Entry]) -> list[Yield]:
+    """Count, for each assumption that judges, the numbers it brings out beside those fitted to."""
+    found: dict[str, list[Entry]] = {}
+    for entry in entries:
+        if entry.basis is Basis.ASSUMPTION:
+            found.setdefault(entry.claim.assumption, []).append(entry)
+    result = []
+    for judged in found.values():
+        if (assumption := judged[0].assumption) is not None:
+            free = [e for e in judged if e.claim.id not in assumption.fitted_to]
+            out = sum(entry.outcome is Outcome.REPRODUCED for entry in free)
+            result.append(Yield(assumption, len(assumption.fitted_to), out, len(free)))
+    return result
+
+
+def stood_on(entries: Collection[Entry]) -> set[str]:
+    """Return the ids of the claims whose print another claim is held against."""
+    return set(chain.from_iterable(references(entry.claim.arguments) for entry in entries))

@@ -17,7 +17,7 @@ def write(tmp_path, monkeypatch):
     return lambda text: (tmp_path / "claims/chapter_5.toml").write_text(HEAD + text)
 
 
-BASE = 'where = "Table 5.1"\nunit = "1"\nbasis = "citation"\n'
+BASE = 'where = "Table 5.1"\nunit = "1"\nbasis = "data"\n'
 
 
 def test_a_table_of_cells_becomes_one_claim_a_cell(write):
@@ -43,7 +43,7 @@ def test_a_table_of_cells_becomes_one_claim_a_cell(write):
         (f'[[claim]]\n{BASE}id = "a"\nwhat = ""\nprinted = "1"\nverdict = "close"', "verdict"),
         (f'[[claim]]\n{BASE}id = "a"\nwhat = ""\nprinted = "1"\n' * 2, "a twice"),
         (
-            f'[[claim]]\n{BASE}id = "a"\nwhat = ""\nprinted = "1"'.replace("citation", "guess"),
+            f'[[claim]]\n{BASE}id = "a"\nwhat = ""\nprinted = "1"'.replace("data", "guess"),
             "'guess'",
         ),
     ],

@@ -1,4 +1,4 @@
-"""Break an equation, and the verdict that hangs on it turns: the ledger tests the package.
+"""Break an equation, and what hangs on it in the ledger turns: the ledger tests the package.
 
 Each case rewrites one expression in the source of one function, and puts the code of the broken
 function in the place of the sound one.
@@ -11,7 +11,7 @@ from collections.abc import Callable
 import pytest
 
 from book.companion.claims import read_claims
-from book.companion.ledger import expected
+from book.companion.ledger import changes, expected
 from book.companion.verdict import judge
 from softgrip.actuator import bending, frequency
 from softgrip.actuator import section as cross_section
@@ -237,10 +237,9 @@ def broken(function: Callable, sound: str, wrong: str):
 
 def turns(what, function, sound, wrong, claim, monkeypatch):
     (claimed,) = [c for c in read_claims() if c.id == claim]
-    before = expected()[claim]
-    assert judge(claimed).verdict == before
+    assert changes(judge(claimed), expected()[claim]) == {}
     monkeypatch.setattr(function, "__code__", broken(function, sound, wrong))
-    assert judge(claimed).verdict != before, what
+    assert changes(judge(claimed), expected()[claim]), what
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case[0])

@@ -1,4 +1,4 @@
-"""Verdicts follow by rule from printed string, stated inputs and named assumptions."""
+"""What comes of a claim follows by rule from print, basis, rounding and named assumptions."""
 
 from types import SimpleNamespace
 
@@ -7,105 +7,135 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from book.companion import verdict as module
-from book.companion.claims import Claim
-from book.companion.verdict import Verdict, comes_out, decimals, judge
+from book.companion.claims import Assumption, Band, Basis, Claim
+from book.companion.verdict import Outcome, judge, meets
 from softgrip.errors import DataFileError
 
 FIND = module._function
+HALF = Assumption("half", "x is a half", fitted_to=("fitted",))
 
 
-def claim(printed="2.37", basis="inputs", **fields):
-    fields = {"function": "value", "arguments": {"x": 2.37}} | fields
-    return Claim("c", 5, "here", "a number", "1", printed, basis, **fields)
+def claim(printed="2.37", basis="model", **fields):
+    fields = {"id": "c", "function": "value", "arguments": {"x": 2.37}} | fields
+    if basis == "assumption":
+        fields = {"assumption": "half", "assume": fields["arguments"]} | fields
+    if basis == "author":
+        fields |= {"author": "design script"}
+    place = {"chapter": 5, "where": "here", "what": "a number", "unit": "1"}
+    return Claim(printed=printed, basis=Basis(basis), **place | fields)
 
 
 @pytest.fixture(autouse=True)
 def value(monkeypatch):
     monkeypatch.setattr(module, "_function", lambda claim: lambda x: x)
+    monkeypatch.setattr(module, "assumptions", lambda chapter: {"half": HALF})
 
 
 @pytest.mark.parametrize(
-    ("x", "expected"),
+    ("basis", "x", "expected"),
     [
-        (2.37, Verdict.REPRODUCED),
-        (2.3749, Verdict.REPRODUCED),
-        (2.3751, Verdict.CLOSE),
-        (2.48, Verdict.CLOSE),
-        (2.49, Verdict.DIFFERS),
-        (-2.37, Verdict.DIFFERS),
+        ("model", 2.37, "reproduced"),
+        ("model", 2.3749, "reproduced"),
+        ("model", 2.3751, "close"),
+        ("model", 2.48, "close"),
+        ("model", 2.49, "contradicts"),
+        ("model", -2.37, "contradicts"),
+        ("print", 2.3749, "reproduced"),
+        ("print", 2.3751, "contradicts"),  # arithmetic is never close
+        ("author", 2.48, "close"),
+        ("author", 2.49, "open"),
+        ("data", 2.49, "open"),
+        ("assumption", 2.3749, "reproduced"),
+        ("assumption", 2.48, "close"),
+        ("assumption", 9.0, "open"),
     ],
 )
-def test_stated_inputs(x, expected):
-    assert judge(claim(arguments={"x": x})).verdict is expected
-
-
-def test_assumption_is_tried_when_the_stated_inputs_fail():
-    entry = judge(claim(arguments={"x": 9.0}, assume={"x": 2.371}, assumptions="x is 2.371"))
-    assert (entry.verdict, entry.recomputed) == (Verdict.ASSUMED, 2.371)
-
-
-def test_assumption_that_does_not_bring_the_number_out_leaves_differs():
-    entry = judge(claim(arguments={"x": 9.0}, assume={"x": 2.40}, assumptions="x is 2.4"))
-    assert (entry.verdict, entry.recomputed) == (Verdict.DIFFERS, 9.0)
-
-
-def test_unstated_input_never_counts_as_reproduced():
-    entry = judge(claim(stated=False, assume={"x": 2.37}, assumptions="x is 2.37"))
-    assert entry.verdict is Verdict.ASSUMED
+def test_what_follows_on_each_basis(basis, x, expected):
+    assert judge(claim(basis=basis, arguments={"x": x})).outcome == expected
 
 
 @pytest.mark.parametrize(
-    ("basis", "expected"), [("citation", Verdict.CITED), ("measurement", Verdict.MEASURED)]
+    ("x", "expected"), [("2.4", "reproduced"), ("2.40", "contradicts"), ("2.3", "contradicts")]
 )
-def test_citations_and_measurements_keep_their_value_beside_the_print(basis, expected):
-    entry = judge(claim(basis=basis))
-    assert (entry.verdict, entry.recomputed) == (expected, 2.37)
-    assert judge(claim(basis=basis, function="")).recomputed is None
+def test_rounding_of_a_printed_input_is_carried(x, expected):
+    assert judge(claim(basis="print", arguments={"x": x})).outcome == expected
+
+
+def test_what_an_assumption_was_fitted_to_it_cannot_judge():
+    assert judge(claim(basis="assumption")).outcome is Outcome.REPRODUCED
+    assert judge(claim(basis="assumption", id="fitted")).outcome is Outcome.OPEN
+
+
+def test_assumption_beside_stated_inputs_judges_nothing():
+    entry = judge(claim(arguments={"x": 9.0}, assume={"x": 2.371}, assumption="half"))
+    assert (entry.outcome, entry.under_assumption) == (Outcome.CONTRADICTS, 2.371)
+
+
+def test_with_an_unprinted_input_a_number_stays_open_unless_none_can_bring_it_out():
+    swept = {"arguments": {"x": 9.0}, "band": Band("x", "x", (2.0, 3.0))}
+    assert judge(claim(**swept)).outcome is Outcome.OPEN
+    assert judge(claim(**swept)).in_band
+    assert judge(claim(**swept, regardless="x is above 8")).outcome is Outcome.CONTRADICTS
+    outside = {**swept, "band": Band("x", cases=({"x": 4.0}, {"x": 5.0}))}
+    assert not judge(claim(**outside)).in_band
+
+
+@pytest.mark.parametrize("nature", ["measurement", "citation", "setting", "part"])
+def test_what_nothing_is_held_against_is_given(nature):
+    assert judge(claim(basis="", nature=nature, function="")).outcome is Outcome.GIVEN
+    assert judge(claim(basis="print", nature=nature)).outcome is Outcome.REPRODUCED
 
 
 @pytest.mark.parametrize(
     ("relation", "x", "expected"),
     [
-        ("<", 9.99, Verdict.REPRODUCED),
-        ("<", 10.2, Verdict.CLOSE),
-        ("<", 12.3, Verdict.DIFFERS),
-        (">", 10.1, Verdict.REPRODUCED),
-        (">", 9.0, Verdict.DIFFERS),
+        ("<", 9.99, "reproduced"),
+        ("<", 10.0, "contradicts"),
+        ("<", 10.2, "contradicts"),  # a broken bound is never close
+        ("<", "10", "open"),
+        (">", 10.1, "reproduced"),
+        (">", 9.0, "contradicts"),
     ],
 )
 def test_bounds(relation, x, expected):
     got = judge(claim(printed="10", relation=relation, arguments={"x": x}))
-    assert got.verdict is expected
+    assert got.outcome == expected
 
 
-def test_simulated_value_never_counts_as_coming_from_stated_inputs(monkeypatch):
+def test_a_count_is_never_close():
+    assert judge(claim(printed="40", exact=True, arguments={"x": 41})).outcome == "contradicts"
+    assert judge(claim(printed="40", arguments={"x": 41})).outcome == "close"
+
+
+def test_simulated_value_stands_on_the_rig_and_never_reproduces(monkeypatch):
     monkeypatch.setattr(module, "_function", FIND)
     chapter = SimpleNamespace(__name__="chapter", value=module.simulated(lambda x: x))
     monkeypatch.setattr(module, "import_module", lambda name: chapter)
-    assert judge(claim(basis="measurement")).simulated
-    with pytest.raises(DataFileError, match="a measurement or an assumption, if it is simulated"):
-        judge(claim())
+    assert judge(claim(basis="rig")).outcome is Outcome.OPEN
+    assert judge(claim(basis="rig", nature="measurement")).outcome is Outcome.GIVEN
+    for basis in ("model", "print", "data"):
+        with pytest.raises(DataFileError, match="the basis 'rig' exactly if it is simulated"):
+            judge(claim(basis=basis))
 
 
-def test_claim_that_could_be_recomputed_but_names_no_function_is_an_error():
-    with pytest.raises(DataFileError, match="a function that recomputes it"):
-        judge(claim(function=""))
-
-
-def test_assumption_must_be_written_out():
-    with pytest.raises(DataFileError, match="assume and assumptions together"):
-        judge(claim(assume={"x": 1.0}))
-
-
-@given(st.decimals(min_value=-1000, max_value=1000, places=3))
-def test_a_printed_number_comes_out_of_itself(number):
-    assert comes_out(claim(printed=str(number)), float(number))
-    assert decimals(str(number)) == 3
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        ({"function": ""}, "a function that recomputes it"),
+        ({"basis": ""}, "a basis"),
+        ({"assume": {"x": 1.0}}, "assume and an assumption's name together"),
+        ({"author": "design script"}, "a source on the basis 'author'"),
+        ({"basis": "assumption", "regardless": "so"}, "nothing 'regardless' on an assumption"),
+    ],
+)
+def test_claim_that_is_not_what_it_says_is_refused(fields, message):
+    with pytest.raises(DataFileError, match=message):
+        judge(claim(**fields))
 
 
 @given(st.floats(-1e4, 1e4), st.integers(0, 6))
 def test_a_value_comes_out_of_its_own_rounding(x, places):
-    assert comes_out(claim(printed=f"{x:.{places}f}"), x)
+    assert meets(claim(printed=f"{x:.{places}f}"), x, x)
 
 
 def test_ledger_of_a_place_judges_its_claims_and_no_others(monkeypatch):
@@ -118,5 +148,5 @@ def test_ledger_of_a_place_judges_its_claims_and_no_others(monkeypatch):
 
 def test_one_claim_is_judged_by_its_id_and_key(monkeypatch):
     monkeypatch.setattr(module, "_function", FIND)
-    assert module.verdict_of(5, "table-5.2-true-{key}", "Dragon Skin 20") is Verdict.DIFFERS
-    assert module.verdict_of(5, "table-5.2-true-{key}", "Dragon Skin FX Pro") is Verdict.REPRODUCED
+    assert module.outcome_of(5, "table-5.2-true-{key}", "Dragon Skin 20") is Outcome.CONTRADICTS
+    assert module.outcome_of(5, "table-5.2-true-{key}", "Dragon Skin FX Pro") is Outcome.REPRODUCED

@@ -1,0 +1,77 @@
+"""Relations between printed numbers: what claims name that hold one print against another."""
+
+from collections.abc import Sequence
+from math import pi, prod
+
+
+def same(value: float, scale: float = 1.0) -> float:
+    """Return a number that is printed elsewhere, in another unit by ``scale``."""
+    return value * scale
+
+
+def total(parts: Sequence[float]) -> float:
+    """Return a sum; of a difference the subtrahend is given with its sign."""
+    return sum(parts)
+
+
+def difference(value: float, less: float) -> float:
+    """Return ``value - less``."""
+    return value - less
+
+
+def ratio(part: float, whole: float, scale: float = 1.0) -> float:
+    """Return ``scale * part / whole``; 100 for percent.
+
+    >>> round(ratio(6.15, 90, 100), 3)
+    6.833
+    """
+    return scale * part / whole
+
+
+def multiplied(factors: Sequence[float], scale: float = 1.0) -> float:
+    """Return a product."""
+    return prod(factors) * scale
+
+
+def mean(values: Sequence[float]) -> float:
+    """Return the arithmetic mean."""
+    return sum(values) / len(values)
+
+
+def largest(values: Sequence[float]) -> float:
+    """Return the largest of printed numbers."""
+    return max(values)
+
+
+def least(values: Sequence[float]) -> float:
+    """Return the least of printed numbers."""
+    return min(values)
+
+
+def number_of(values: Sequence[object]) -> float:
+    """Count what is listed in print."""
+    return len(values)
+
+
+def change(after: float, before: float) -> float:
+    """Return by how many percent ``after`` differs from ``before``, without a sign."""
+    return 100 * abs(after / before - 1)
+
+
+def degrees(radians: float) -> float:
+    """Convert an angle."""
+    return radians * 180 / pi
+
+
+def per_second(hertz: float) -> float:
+    """Convert a frequency to rad/s."""
+    return 2 * pi * hertz
+
+
+def nearest_share(percent: float, whole: float) -> float:
+    """Return the share, in percent, of a whole number of cases that comes nearest to a printed one.
+
+    >>> round(nearest_share(96.4, 504), 2)
+    96.43
+    """
+    return 100 * round(percent / 100 * whole) / whole
