@@ -49,6 +49,7 @@ def test_each_is_named_by_a_test_whose_file_uses_the_owner(number):
 
 
 @pytest.mark.book
+@pytest.mark.book
 def test_each_has_its_links_and_its_row(html):
     rows = BeautifulSoup((html / "equations.html").read_text(), "html.parser").select(
         "table.equations tbody tr"
