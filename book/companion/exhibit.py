@@ -2,14 +2,15 @@
 
 import re
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache, partial, update_wrapper
 from importlib import import_module
 from inspect import signature
 from pathlib import Path
-from typing import Any, Literal, TypeVar
+from typing import Literal, TypeVar
 
+from book.companion.prose import word
 from softgrip.errors import InvalidInputError, UnknownNameError
 from softgrip.logs.reader import read_log
 from softgrip.provenance import Provenance
@@ -20,7 +21,7 @@ Make = TypeVar("Make", bound=Callable[..., object])
 
 BOOK = Path(__file__).parent.parent
 PLACE = re.compile(r"\{\{ (\w+) \}\}")
-"""Where a caption has a value that is computed."""
+"""Where a caption has a number: see `book.companion.prose`."""
 
 
 @lru_cache
@@ -43,8 +44,6 @@ class Exhibit:
     """Data that are not files of the project, in words."""
     drawing: bool = False
     """Whether it is a drawing, such as a block diagram, with no numbers to give as CSV."""
-    values: Mapping[str, Callable[[], str]] = field(default_factory=dict)
-    """What makes the text of each place in its words."""
     repairs: tuple[str, ...] = ()
     """What was mended or is missing in the reader's own logs, one sentence each."""
     logs: tuple[Path, ...] = ()
@@ -61,11 +60,12 @@ class Exhibit:
         return self._words("alt")
 
     def _words(self, what: str) -> str:
-        known = _captions(self.number.partition(".")[0])
+        chapter = self.number.partition(".")[0]
+        known = _captions(chapter)
         if self.title not in known:
             raise UnknownNameError("caption", self.title, list(known))
         text = " ".join(known[self.title].get(what, "").split())
-        return PLACE.sub(lambda place: self.values[place[1]](), text)
+        return PLACE.sub(lambda place: word(chapter, place[1]), text)
 
     @property
     def name(self) -> str:
@@ -101,9 +101,11 @@ def chapters() -> list[str]:
     return sorted(folder.name.removeprefix("chapter_") for folder in BOOK.glob("chapter_*"))
 
 
-def _register(kind: Kind, number: str, **told: Any) -> Callable[[Make], Make]:
+def _register(
+    kind: Kind, number: str, provenance: Provenance, sources: str, drawing: bool = False
+) -> Callable[[Make], Make]:
     def keep(make: Make) -> Make:
-        EXHIBITS[kind, number] = Exhibit(kind, number, make, **told)
+        EXHIBITS[kind, number] = Exhibit(kind, number, make, provenance, sources, drawing)
         return make
 
     return keep
@@ -115,7 +117,6 @@ def figure(
     *,
     sources: str = "",
     drawing: bool = False,
-    **values: Callable[[], str],
 ) -> Callable[[Make], Make]:
     """Register a function that returns a matplotlib Figure.
 
@@ -125,17 +126,13 @@ def figure(
         sources: Data that are not files below ``data/``, in words; those are found out when it is
             made.
         drawing: Whether no numbers stand behind it.
-        values: For each ``{{ name }}`` in its words, what makes the text that goes there.
     """
-    told = {"provenance": provenance, "sources": sources, "drawing": drawing, "values": values}
-    return _register("figure", number, **told)
+    return _register("figure", number, provenance, sources, drawing)
 
 
-def table(
-    number: str, provenance: Provenance, *, sources: str = "", **values: Callable[[], str]
-) -> Callable[[Make], Make]:
+def table(number: str, provenance: Provenance, *, sources: str = "") -> Callable[[Make], Make]:
     """Register a function that returns a pandas DataFrame; parameters as for `figure`."""
-    return _register("table", number, provenance=provenance, sources=sources, values=values)
+    return _register("table", number, provenance, sources)
 
 
 def _register_chapter(chapter: str) -> None:
