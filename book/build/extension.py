@@ -8,7 +8,7 @@ from typing import Any
 from jupyter_cache import get_cache
 from sphinx.application import Sphinx
 
-from book.build import api, equations, numbering, tracing, vendor
+from book.build import api, claim_role, equations, numbering, tracing, vendor
 
 
 def _build_folder(app: Sphinx) -> Path:
@@ -90,6 +90,7 @@ def remove_former_modules(app: Sphinx, _error: Exception | None) -> None:
 def setup(app: Sphinx) -> dict[str, Any]:
     """Connect the parts to the stages of a build."""
     api.setup(app)
+    claim_role.setup(app)
     equations.setup(app)
     numbering.setup(app)
     app.connect("config-inited", use_local_scripts)

@@ -246,16 +246,29 @@ def claim_of(chapter: int, pattern: str, key: object = "") -> Claim:
     return known[name]
 
 
-def printed(id: str) -> Printed:
-    """Return what a claim of any chapter prints.
-
-    Raises:
-        UnknownNameError: If there is no such claim.
-    """
+def _anywhere(id: str) -> Claim:
     known = {claim.id: claim for claim in read_claims()}
     if id not in known:
         raise UnknownNameError("claim", id, list(known))
-    return Printed(known[id].printed, exact=known[id].exact)
+    return known[id]
+
+
+def printed_text(id: str) -> str:
+    """Return what a claim of any chapter prints, to the letter.
+
+    Raises:
+        UnknownNameError: If there is no such claim.
+
+    >>> printed_text("5.2-materials")
+    '10'
+    """
+    return _anywhere(id).printed
+
+
+def printed(id: str) -> Printed:
+    """Return what a claim of any chapter prints, as a number; errors as for `printed_text`."""
+    claim = _anywhere(id)
+    return Printed(claim.printed, exact=claim.exact)
 
 
 def resolved(argument: Any) -> Any:

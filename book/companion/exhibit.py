@@ -20,7 +20,7 @@ Make = TypeVar("Make", bound=Callable[..., object])
 
 
 BOOK = Path(__file__).parent.parent
-PLACE = re.compile(r"\{\{ (\w+) \}\}")
+PLACE = re.compile(r"\{\{ (\S+) \}\}")
 """Where a caption has a number: see `book.companion.prose`."""
 
 

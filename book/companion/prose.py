@@ -1,41 +1,43 @@
-"""Numbers in prose: each is a function of its chapter's module ``prose``, and never typed.
+"""Numbers in prose: computed, or those that a claim prints, and never typed.
 
-A caption has ``{{ name }}`` in the place of a number, a page ``{glue:text}`name```.
+The module ``prose`` of a chapter has a table ``WORDS``: for each name what makes the text. A caption
+has ``{{ name }}`` in the place of a number, a page ``{glue:text}`name```. What a claim prints is
+``{{ @id }}`` in a caption, ``{claim}`id``` in a page.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache
 from importlib import import_module
-from inspect import getmembers, isfunction
 
+from book.companion.claims import printed_text
 from softgrip.errors import UnknownNameError
 
 
-def words(chapter: int | str) -> dict[str, Callable[[], str]]:
-    """Return what makes the text of each number in a chapter's prose, by name."""
-    module = import_module(f"book.chapter_{chapter}.prose")
-    return {
-        name: function
-        for name, function in getmembers(module, isfunction)
-        if function.__module__ == module.__name__ and not name.startswith("_")
-    }
+def words(chapter: int | str) -> Mapping[str, Callable[[], str]]:
+    """Return what makes the text of each computed number in a chapter's prose, by name."""
+    made: Mapping[str, Callable[[], str]] = import_module(f"book.chapter_{chapter}.prose").WORDS
+    return made
 
 
 @cache
-def word(chapter: int | str, name: str) -> str:
-    """Return the text of one number.
-
-    Raises:
-        UnknownNameError: If the chapter's prose has no such number; the message lists those it has.
-    """
+def _computed(chapter: int | str, name: str) -> str:
     known = words(chapter)
     if name not in known:
         raise UnknownNameError(f"number in the prose of Chapter {chapter}", name, list(known))
     return known[name]()
 
 
+def word(chapter: int | str, name: str) -> str:
+    """Return the text of a number by its name, or what a claim prints by ``@`` and its id.
+
+    Raises:
+        UnknownNameError: If there is no such number or claim; the message lists those there are.
+    """
+    return printed_text(name[1:]) if name.startswith("@") else _computed(chapter, name)
+
+
 def tell(chapter: int) -> None:
-    """Make the numbers of a chapter known to its page."""
+    """Make the computed numbers of a chapter known to its page."""
     from myst_nb import glue  # brings Sphinx, which captions do not need
 
     for name in words(chapter):
