@@ -1,4 +1,4 @@
-"""The role ``{claim}``: a printed number in prose, as its claim has it, that leads to the ledger."""
+"""The role ``{claim}``: a printed number in prose, as its claim has it, with its row linked."""
 
 from docutils import nodes
 from sphinx.application import Sphinx

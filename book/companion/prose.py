@@ -1,7 +1,7 @@
 """Numbers in prose: computed, or those that a claim prints, and never typed.
 
-The module ``prose`` of a chapter has a table ``WORDS``: for each name what makes the text. A caption
-has ``{{ name }}`` in the place of a number, a page ``{glue:text}`name```. What a claim prints is
+A chapter's module ``prose`` has a table ``WORDS``: for each name what makes the text. A caption has
+``{{ name }}`` in the place of a number, a page ``{glue:text}`name```. What a claim prints is
 ``{{ @id }}`` in a caption, ``{claim}`id``` in a page.
 """
 
