@@ -1,0 +1,5 @@
+"""Computed numbers in the prose of Chapter 3."""
+
+from collections.abc import Callable
+
+WORDS: dict[str, Callable[[], str]] = {}
