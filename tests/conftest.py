@@ -33,6 +33,12 @@ def root() -> Path:
     return ROOT
 
 
+@pytest.fixture
+def path(tmp_path) -> Path:
+    """Where a test writes its log."""
+    return tmp_path / "log.csv"
+
+
 @pytest.fixture(scope="session")
 def tensile_tests() -> None:
     """Skip where the public tensile tests can neither be read nor fetched."""

@@ -6,13 +6,7 @@ from time import thread_time_ns
 import numpy as np
 
 from softgrip.control.pid import PERIOD, PID, Gains
-from softgrip.pump.elastance import (
-    ElastanceModel,
-    NoiseLevels,
-    Prior,
-    elastance_filter,
-    transitions,
-)
+from softgrip.pump import elastance
 from tests.bench.entry import Entry
 
 PARTS = ("transition", "predict", "update", "PID")
@@ -22,10 +16,10 @@ SPREAD = 10.0
 """How many medians of the same run the slowest percent may begin at: shared caches spread the
 processor's time by a few, a step that does other work than the rest by more."""
 
-MODEL = ElastanceModel(
+MODEL = elastance.ElastanceModel(
     PERIOD,
-    NoiseLevels(pressure_step=10.0, elastance_step=1e7, sensor=500.0),
-    Prior(pressure=0.0, pressure_std=1e3, elastance=1e9, elastance_std=2e8),
+    elastance.NoiseLevels(pressure_step=10.0, elastance_step=1e7, sensor=500.0),
+    elastance.Prior(pressure=0.0, pressure_std=1e3, elastance=1e9, elastance_std=2e8),
     angle_gain=1e7,
 )
 
@@ -38,12 +32,12 @@ def steps(count: int) -> np.ndarray:
     rng = np.random.default_rng(0)
     pressure = rng.normal(5e4, 500.0, count).tolist()
     angle = np.cumsum(rng.normal(0, 1e-3, count)).tolist()
-    kalman = elastance_filter(MODEL)
+    kalman = elastance.elastance_filter(MODEL)
     pid = PID(Gains(kp=1.0, ki=2.0, kd=0.1), limits=(-31.4, 31.4))
     taken, last, command = np.empty((count, len(PARTS))), 0.0, 0.0
     for k in range(count):
         marks = [thread_time_ns()]
-        F = transitions([command * 8e-7], PERIOD)[0]
+        F = elastance.transitions([command * 8e-7], PERIOD)[0]
         marks.append(thread_time_ns())
         kalman.predict(u=np.array([[angle[k] - last]]), F=F)
         marks.append(thread_time_ns())

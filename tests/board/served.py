@@ -7,6 +7,7 @@ import time
 
 import pytest
 
+from softgrip.board.driver import Board
 from tests.board.stub_board import StubBoard
 
 
@@ -45,6 +46,14 @@ class Served:
 @pytest.fixture
 def stub():
     return StubBoard()
+
+
+@pytest.fixture
+def rig(stub):
+    """The driver of a stub board, homed."""
+    with Board(stub) as opened:
+        opened.home()
+        yield opened
 
 
 @pytest.fixture

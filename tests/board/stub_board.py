@@ -4,32 +4,10 @@ It is no firmware: what the firmware does is tested on the emulated board. Its c
 unless it is read, and the simulated rig is what it drives.
 """
 
+from softgrip.board import protocol
 from softgrip.board.errors import ConnectionLostError
 from softgrip.board.framing import Frame, FrameReader, encode
-from softgrip.board.protocol import (
-    ACK,
-    BY_ID,
-    CHANNELS,
-    CLEAR,
-    COUNTERS,
-    COUNTERS_ANSWER,
-    ESTOP,
-    HELLO,
-    HELLO_ANSWER,
-    HOME,
-    NACK,
-    PROTOCOL_VERSION,
-    SET_LIMITS,
-    SETPOINT,
-    SPEED_SCALE,
-    TABLE,
-    TELEMETRY,
-    TELEMETRY_PERIOD,
-    VENT,
-    Flag,
-    Reason,
-    SetUp,
-)  # fmt: skip
+from softgrip.board.protocol import Flag, Reason, SetUp
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import REV
@@ -37,6 +15,7 @@ from softgrip.units import REV
 STEPS = 800
 LIMITS = {"pressure": 399, "position": 9000, "speed": 4000, "acceleration": 40000, "silence": 200}
 HARD = {"pressure": 547, "position": 12000, "speed": 4000, "acceleration": 40000, "silence": 200}
+"""Of the firmware's config.h."""
 
 
 class StubBoard:
@@ -48,8 +27,8 @@ class StubBoard:
 
     name, real_time = "stub", False
 
-    def __init__(self, *, valve=False, table=TABLE, build=0xC0FFEE, rig=None):
-        self.rig = rig or Simulation(design_1(), period=TELEMETRY_PERIOD)
+    def __init__(self, *, valve=False, table=protocol.TABLE, build=0xC0FFEE, rig=None):
+        self.rig = rig or Simulation(design_1(), period=protocol.TELEMETRY_PERIOD)
         self.valve, self.table, self.build = valve, table, build
         self.deaf = self.closed = False
         self.pulled_until = -1.0
@@ -62,7 +41,7 @@ class StubBoard:
     def reset(self):
         self.flags, self.speed, self.number, self.started = Flag(0), 0, 0, self._t
         self.limits, self.heard, self.last = dict(LIMITS), self._t, 0
-        self._reader, self.out, self._next = FrameReader(), bytearray(), TELEMETRY_PERIOD
+        self._reader, self.out, self._next = FrameReader(), bytearray(), protocol.TELEMETRY_PERIOD
 
     # The link.
 
@@ -73,7 +52,7 @@ class StubBoard:
         self._check()
         for frame in self._reader.feed(data):
             self.heard = self._t
-            self.received.append(BY_ID[frame.id].name)
+            self.received.append(protocol.BY_ID[frame.id].name)
             if not self.deaf:
                 self._handle(frame)
 
@@ -108,11 +87,11 @@ class StubBoard:
                 self.flags |= Flag.HOST_SILENT
                 self.speed = 0
             if self._t - self.started >= self._next - 1e-9:
-                self._next += TELEMETRY_PERIOD
+                self._next += protocol.TELEMETRY_PERIOD
                 self._sample()
 
     def _sample(self):
-        command = self.speed / SPEED_SCALE / STEPS * REV
+        command = self.speed / protocol.SPEED_SCALE / STEPS * REV
         if self.flags & Flag.HOMING:
             command = -REV
         self._measured = self.rig.advance(command)
@@ -127,12 +106,12 @@ class StubBoard:
         if self.swallow:
             self.swallow -= 1
             return
-        channels = [0] * len(CHANNELS)
-        channels[CHANNELS.index("pressure")] = pressure
-        channels[CHANNELS.index("flex_1")] = int(self._measured.angle_counts[0, 0])
-        channels[CHANNELS.index("flex_2")] = 512
+        channels = [0] * len(protocol.CHANNELS)
+        channels[protocol.CHANNELS.index("pressure")] = pressure
+        channels[protocol.CHANNELS.index("flex_1")] = int(self._measured.angle_counts[0, 0])
+        channels[protocol.CHANNELS.index("flex_2")] = 512
         self._say(
-            TELEMETRY, 0, number=self.number, time=round((self._t - self.started) * 1e3),
+            protocol.TELEMETRY, 0, number=self.number, time=round((self._t - self.started) * 1e3),
             channels=tuple(channels), position=round(place / 8e-3 * STEPS), speed=self.speed,
             flags=int(self.flags), last=self.last,
         )  # fmt: skip
@@ -144,10 +123,10 @@ class StubBoard:
         self.out += encode(Frame(message.id, sequence, message.pack(**values)))
 
     def _handle(self, frame):
-        fields = BY_ID[frame.id].unpack(frame.payload)
+        fields = protocol.BY_ID[frame.id].unpack(frame.payload)
         self.flags &= ~Flag.HOST_SILENT
         self.last, reason = frame.sequence, 0
-        if frame.id == HELLO.id:
+        if frame.id == protocol.HELLO.id:
             if fields["table"] != self.table:
                 reason = Reason.WRONG_VERSION
             else:
@@ -155,54 +134,55 @@ class StubBoard:
                 self.speed = 0
                 hard = {f"hard_{name}": value for name, value in HARD.items()}
                 self._say(
-                    HELLO_ANSWER, frame.sequence, version=PROTOCOL_VERSION, table=self.table,
-                    build=self.build, set_up=int(SetUp.GRIPPER), reset_cause=1,
-                    valve=int(self.valve), steps=STEPS, **self.limits, **hard,
+                    protocol.HELLO_ANSWER, frame.sequence,
+                    version=protocol.PROTOCOL_VERSION, table=self.table, build=self.build,
+                    set_up=int(SetUp.GRIPPER), reset_cause=1, valve=int(self.valve), steps=STEPS,
+                    **self.limits, **hard,
                 )  # fmt: skip
                 return
-        elif not self.flags & Flag.GREETED and frame.id != ESTOP.id:
+        elif not self.flags & Flag.GREETED and frame.id != protocol.ESTOP.id:
             reason = Reason.NOT_GREETED
-        elif frame.id == COUNTERS.id:
+        elif frame.id == protocol.COUNTERS.id:
             zeros = dict.fromkeys(("bad", "overlong", "lost", "stale", "dropped"), 0)
-            self._say(COUNTERS_ANSWER, frame.sequence, good=self._reader.good, **zeros)
+            self._say(protocol.COUNTERS_ANSWER, frame.sequence, good=self._reader.good, **zeros)
             return
         else:
             reason = self._act(frame.id, fields)
         if reason:
-            self._say(NACK, frame.sequence, id=frame.id, reason=int(reason))
+            self._say(protocol.NACK, frame.sequence, id=frame.id, reason=int(reason))
         else:
-            self._say(ACK, frame.sequence, id=frame.id)
+            self._say(protocol.ACK, frame.sequence, id=frame.id)
 
     def _act(self, message, fields):
-        if message == SETPOINT.id:
+        if message == protocol.SETPOINT.id:
             if self.flags & Flag.HOMING:
                 return Reason.MOVING
             speed, self.speed = fields["speed"], 0
             if self.flags & Flag.ESTOPPED:
                 return Reason.ESTOPPED
-            if abs(speed) > self.limits["speed"] * SPEED_SCALE:
+            if abs(speed) > self.limits["speed"] * protocol.SPEED_SCALE:
                 return Reason.SPEED_LIMIT
             if speed > 0 and not self.flags & Flag.HOMED:
                 return Reason.NOT_HOMED
             if speed > 0 and self.flags & Flag.OVER_PRESSURE:
                 return Reason.OVER_PRESSURE
             self.speed = speed
-        elif message == ESTOP.id:
+        elif message == protocol.ESTOP.id:
             self.flags |= Flag.ESTOPPED
             self.speed = 0
-        elif message == CLEAR.id:
+        elif message == protocol.CLEAR.id:
             self.flags &= ~Flag.ESTOPPED
-        elif message == HOME.id:
+        elif message == protocol.HOME.id:
             if self.flags & Flag.ESTOPPED:
                 return Reason.ESTOPPED
             if self.flags & (Flag.MOVING | Flag.HOMING):
                 return Reason.MOVING
             self.flags = (self.flags & ~Flag.HOMED) | Flag.HOMING
-        elif message == SET_LIMITS.id:
+        elif message == protocol.SET_LIMITS.id:
             if any(fields[name] > HARD[name] for name in HARD):
                 return Reason.HARD_BOUND
             self.limits = fields
-        elif message == VENT.id:
+        elif message == protocol.VENT.id:
             if not self.valve:
                 return Reason.NO_VALVE
             self._set(Flag.VALVE_OPEN, bool(fields["open"]))

@@ -6,18 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from softgrip.board import errors
 from softgrip.board.calibration import nominal
 from softgrip.board.driver import HUNG_AFTER, Board
-from softgrip.board.errors import (
-    BoardResetError,
-    CommandRefusedError,
-    ConnectionLostError,
-    NoAnswerError,
-    NoBoardError,
-    PortUnavailableError,
-    VersionMismatchError,
-    WrongBoardError,
-)
 from softgrip.board.framing import Frame, encode
 from softgrip.board.protocol import ACK, HOME, SETPOINT, TABLE, TELEMETRY_PERIOD, Flag
 from softgrip.errors import InvalidInputError
@@ -26,13 +17,6 @@ from softgrip.simulator.simulation import Simulation
 from softgrip.units import PSI, REV
 from tests.board.stub_board import HARD, LIMITS, StubBoard
 from tests.rig.test_live import until
-
-
-@pytest.fixture
-def rig(stub):
-    with Board(stub) as opened:
-        opened.home()
-        yield opened
 
 
 def push_until(rig, event, samples=400):
@@ -48,7 +32,7 @@ def push_until(rig, event, samples=400):
 
 def test_another_firmware_is_refused_and_what_to_flash_is_said():
     board = StubBoard(table=TABLE ^ 1)
-    with pytest.raises(VersionMismatchError, match=r"flash .*softgrip_rig\.ino"):
+    with pytest.raises(errors.VersionMismatchError, match=r"flash .*softgrip_rig\.ino"):
         Board(board)
     assert board.closed
     assert "setpoint" not in board.received
@@ -56,7 +40,7 @@ def test_another_firmware_is_refused_and_what_to_flash_is_said():
 
 def test_nothing_that_answers_is_no_board(stub):
     stub.deaf = True
-    with pytest.raises(NoBoardError, match="flashed"):
+    with pytest.raises(errors.NoBoardError, match="flashed"):
         Board(stub)
     assert stub.closed
 
@@ -80,7 +64,7 @@ def test_connecting_moves_nothing(stub):
 
 
 def test_a_calibration_of_another_board_is_refused(stub):
-    with pytest.raises(WrongBoardError, match="calibrate this board"):
+    with pytest.raises(errors.WrongBoardError, match="calibrate this board"):
         Board(stub, calibration=replace(nominal(1), board="another"))
     with Board(StubBoard(), calibration=replace(nominal(1), board="build 00c0ffee")):
         pass
@@ -150,7 +134,7 @@ def test_limits_are_told_and_set_in_si(rig, stub):
 
 
 def test_limits_beyond_the_bounds_are_refused(rig, stub):
-    with pytest.raises(CommandRefusedError, match="hard bound"):
+    with pytest.raises(errors.CommandRefusedError, match="hard bound"):
         rig.set_limits(replace(rig.info.limits, travel=rig.info.bounds.travel + 1e-3))
     assert stub.limits == LIMITS
     assert rig.set_limits(rig.info.bounds) == rig.info.bounds
@@ -222,11 +206,11 @@ def test_homing_goes_on_though_its_answer_is_lost():
 
 def test_a_board_that_falls_silent_is_a_typed_error_with_its_state(rig, stub):
     stub.deaf = True
-    with pytest.raises(NoAnswerError) as caught:
+    with pytest.raises(errors.NoAnswerError) as caught:
         rig.advance(0.0)
     assert (caught.value.port, caught.value.command) == ("stub", "setpoint")
     assert "homed" in caught.value.state
-    assert isinstance(caught.value, ConnectionLostError)
+    assert isinstance(caught.value, errors.ConnectionLostError)
     stub.deaf = False
 
 
@@ -243,12 +227,12 @@ def test_a_reset_of_the_board_is_seen_and_asks_for_homing(rig, stub):
     for _ in range(3):
         rig.advance(REV)
     stub.reset()
-    with pytest.raises(BoardResetError):
+    with pytest.raises(errors.BoardResetError):
         rig.advance(REV)
     before = rig.measure().time
     rig.reconnect(5.0)
     assert rig.measure().time > before
-    with pytest.raises(CommandRefusedError, match="not homed"):
+    with pytest.raises(errors.CommandRefusedError, match="not homed"):
         rig.advance(REV)
     rig.home()
     rig.advance(REV)
@@ -259,7 +243,7 @@ def test_time_goes_on_over_a_reset_that_telemetry_tells(rig, stub):
         rig.advance(0.0)
     before, clock = rig.measure().time, stub.now()
     stub.reset()
-    with pytest.raises(BoardResetError):
+    with pytest.raises(errors.BoardResetError):
         rig.listen()
     assert rig.measure().time == before
     rig.reconnect(5.0)
@@ -279,21 +263,23 @@ def test_an_answer_that_came_before_a_fault_counts(rig, stub):
     stub._handle = answer_and_begin_anew
     assert rig.session.ask(SETPOINT, speed=0) == {"id": SETPOINT.id}
     stub._handle = handle
-    with pytest.raises(BoardResetError):
+    with pytest.raises(errors.BoardResetError):
         rig.listen()
     rig.reconnect(5.0)
 
 
 def test_other_firmware_after_a_lost_line_is_refused(rig, stub):
     stub.build = 1
-    with pytest.raises(WrongBoardError):
+    with pytest.raises(errors.WrongBoardError):
         rig.reconnect(5.0)
 
 
 def test_a_line_that_stays_lost_is_given_up(rig, stub):
     stub.pull(60.0)
     begin = stub.now()
-    with pytest.raises(ConnectionLostError, match=r"not found again in 2 s; at last: .*pulled"):
+    with pytest.raises(
+        errors.ConnectionLostError, match=r"not found again in 2 s; at last: .*pulled"
+    ):
         rig.reconnect(2.0)
     assert 2.0 <= stub.now() - begin < 2.5
     stub.pull(0.0)
@@ -349,7 +335,7 @@ def test_the_first_error_is_the_one_told(stub):
 
 
 def test_a_stop_that_is_not_heard_is_an_error(stub):
-    with pytest.raises(NoAnswerError), Board(stub):
+    with pytest.raises(errors.NoAnswerError), Board(stub):
         stub.deaf = True
     assert stub.closed
 
@@ -370,7 +356,7 @@ def test_over_a_terminal(pty_board):
         # The first sample is the next one, at most a period away.
         assert time.monotonic() - begin > 0.17
         assert np.diff([one.time for one in found]).min() > 0
-        with pytest.raises(PortUnavailableError, match="another program"):
+        with pytest.raises(errors.PortUnavailableError, match="another program"):
             Board(name)
         rig.stop()
         begin = board.now()

@@ -4,39 +4,16 @@ import numpy as np
 import pytest
 
 from book.live.emulated import EMULATED_BITS
+from softgrip.board import protocol
 from softgrip.board.emulated.board import CLOCK, EmulatedBoard
 from softgrip.board.firmware.header import build
 from softgrip.board.framing import Frame, encode
-from softgrip.board.protocol import (
-    BAUD,
-    CHANNELS,
-    CLEAR,
-    COUNTERS,
-    ESTOP,
-    HEARTBEAT,
-    HELLO,
-    HOME,
-    PROTOCOL_VERSION,
-    SET_LIMITS,
-    SETPOINT,
-    SPEED_SCALE,
-    TABLE,
-    TELEMETRY,
-    TELEMETRY_PERIOD,
-    VENT,
-    Flag,
-    Reason,
-    ResetCause,
-    SetUp,
-)  # fmt: skip
+from softgrip.board.protocol import HOME, SET_LIMITS, SETPOINT, SPEED_SCALE, Flag, Reason, SetUp
 from tests.board.emulated import needs_emulator
 from tests.board.host import Host
+from tests.board.stub_board import HARD, LIMITS
 
 pytestmark = needs_emulator
-
-LIMITS = {"pressure": 399, "position": 9000, "speed": 4000, "acceleration": 40000, "silence": 200}
-HARD = {"pressure": 547, "position": 12000, "speed": 4000, "acceleration": 40000, "silence": 200}
-"""Of the firmware's config.h."""
 
 
 @pytest.fixture
@@ -55,8 +32,8 @@ def test_the_board_says_who_it_is(set_up):
     answer = Host(EmulatedBoard(set_up)).greet()
     hard = {f"hard_{name}": value for name, value in HARD.items()}
     assert answer == {
-        **{"version": PROTOCOL_VERSION, "table": TABLE, "build": build(), "set_up": set_up},
-        **{"reset_cause": ResetCause.POWER_ON, "valve": 0, "steps": 800},
+        **{"version": protocol.PROTOCOL_VERSION, "table": protocol.TABLE, "build": build()},
+        **{"set_up": set_up, "reset_cause": protocol.ResetCause.POWER_ON, "valve": 0, "steps": 800},
         **LIMITS,
         **hard,
     }
@@ -68,9 +45,11 @@ def test_full_scale_pressure_bounds_are_what_they_mean():
         assert (0.5 + 4 * kilopascals / 551.58) / 5 * 1023 == pytest.approx(count, abs=1)
 
 
-@pytest.mark.parametrize(("version", "table"), [(2, TABLE), (PROTOCOL_VERSION, TABLE ^ 1)])
+@pytest.mark.parametrize(
+    ("version", "table"), [(2, protocol.TABLE), (protocol.PROTOCOL_VERSION, protocol.TABLE ^ 1)]
+)
 def test_another_protocol_is_refused_and_moves_nothing(host, version, table):
-    assert host.ask(HELLO, version=version, table=table) == Reason.WRONG_VERSION
+    assert host.ask(protocol.HELLO, version=version, table=table) == Reason.WRONG_VERSION
     for message, values in ((SETPOINT, {"speed": -256}), (HOME, {}), (SET_LIMITS, LIMITS)):
         assert host.ask(message, **values) == Reason.NOT_GREETED
     host.run(0.3)
@@ -82,7 +61,7 @@ def test_the_pad_has_no_pump():
     host.greet()
     assert host.ask(SETPOINT, speed=-256) == Reason.NO_PUMP
     assert host.ask(HOME) == Reason.NO_PUMP
-    assert host.ask(CLEAR) is None  # no pressure sensor that could be at fault
+    assert host.ask(protocol.CLEAR) is None  # no pressure sensor that could be at fault
     host.run(0.3)
     assert host.flags == Flag.GREETED
     assert host.board.edges()[0].size == 0
@@ -91,12 +70,12 @@ def test_the_pad_has_no_pump():
 @pytest.mark.parametrize("set_up", SetUp)
 def test_telemetry_has_each_channel_at_40_hz(set_up):
     host = Host(EmulatedBoard(set_up), closed=False)
-    counts = tuple(150 + 60 * k for k in range(len(CHANNELS)))
+    counts = tuple(150 + 60 * k for k in range(len(protocol.CHANNELS)))
     for channel, count in enumerate(counts):
         host.board.set_count(channel, count)
     host.run(1.0)
     assert host.telemetry["channels"] == counts
-    assert len(host.frames) == 1 / TELEMETRY_PERIOD
+    assert len(host.frames) == 1 / protocol.TELEMETRY_PERIOD
     assert np.unique(np.diff([frame["time"] for frame in host.frames])) == [25]
     assert np.unique(np.diff([frame["number"] for frame in host.frames])) == [1]
 
@@ -104,15 +83,15 @@ def test_telemetry_has_each_channel_at_40_hz(set_up):
 def test_a_channel_is_read_at_its_time_before_the_frame(host):
     # A step of all voltages in the middle between two samples splits the frame by channel.
     host.board.advance(0.1055 - host.board.time)
-    for channel in range(len(CHANNELS)):
+    for channel in range(len(protocol.CHANNELS)):
         host.board.set_count(channel, 900)
     host.board.advance(0.06)
     host.listen()
     after = next(frame for frame in host.frames if max(frame["channels"]) >= 900)
     edge = 105.5  # ms
     for k, count in enumerate(after["channels"]):
-        ago = 0 if CHANNELS[k] == "pressure" else 13 - k if k < 9 else 14 - k
-        assert (count == 900) == (after["time"] - ago > edge), CHANNELS[k]
+        ago = 0 if protocol.CHANNELS[k] == "pressure" else 13 - k if k < 9 else 14 - k
+        assert (count == 900) == (after["time"] - ago > edge), protocol.CHANNELS[k]
 
 
 def test_a_repeated_command_is_acknowledged_and_not_carried_out_again(homed):
@@ -127,19 +106,19 @@ def test_a_repeated_command_is_acknowledged_and_not_carried_out_again(homed):
 
 
 def test_a_late_command_is_stale_and_skipped_ones_are_counted(homed):
-    before = homed.ask(COUNTERS)
+    before = homed.ask(protocol.COUNTERS)
     now = homed._sequence
     late = (now - 3) % 256
     assert homed.ask(SETPOINT, sequence=late, speed=100 * SPEED_SCALE) == Reason.STALE
-    assert homed.ask(HEARTBEAT, sequence=(now + 5) % 256) is None
-    after = homed.ask(COUNTERS, sequence=(now + 6) % 256)
+    assert homed.ask(protocol.HEARTBEAT, sequence=(now + 5) % 256) is None
+    after = homed.ask(protocol.COUNTERS, sequence=(now + 6) % 256)
     assert (after["stale"] - before["stale"], after["lost"] - before["lost"]) == (1, 4)
     homed._sequence = (now + 6) % 256
     homed.run(0.2)
     assert not homed.flags & Flag.MOVING
     # The last number of a lap is followed by 0.
     for sequence in (100, 200, 255, 0, 1):
-        assert homed.ask(HEARTBEAT, sequence=sequence) is None
+        assert homed.ask(protocol.HEARTBEAT, sequence=sequence) is None
 
 
 @pytest.mark.parametrize("greeted", [True, False])
@@ -147,18 +126,18 @@ def test_an_emergency_stop_is_obeyed_whatever_its_number(host, greeted):
     if greeted:
         host.greet()
         host.run(0.2)
-    assert host.ask(ESTOP, sequence=(host._sequence - 9) % 256) is None
+    assert host.ask(protocol.ESTOP, sequence=(host._sequence - 9) % 256) is None
     host.run(0.05)
     assert host.flags & Flag.ESTOPPED
     # And leaves the count of the others where it was; before HELLO a heartbeat is refused.
-    assert host.ask(COUNTERS)["lost"] == (0 if greeted else 1)
+    assert host.ask(protocol.COUNTERS)["lost"] == (0 if greeted else 1)
 
 
 @pytest.mark.parametrize(
     ("frame", "reason"),
     [
         (Frame(77, 1), Reason.UNKNOWN_MESSAGE),
-        (Frame(TELEMETRY.id, 1, bytes(45)), Reason.UNKNOWN_MESSAGE),
+        (Frame(protocol.TELEMETRY.id, 1, bytes(45)), Reason.UNKNOWN_MESSAGE),
         (Frame(SETPOINT.id, 1, bytes(3)), Reason.WRONG_LENGTH),
         (Frame(HOME.id, 1, b"\1"), Reason.WRONG_LENGTH),
     ],
@@ -203,11 +182,11 @@ def test_limits_are_set_at_rest_only(homed):
 
 def test_the_valve_is_there_or_not(host):
     host.greet()
-    assert host.ask(VENT, open=1) == Reason.NO_VALVE
+    assert host.ask(protocol.VENT, open=1) == Reason.NO_VALVE
     with_valve = Host(EmulatedBoard(valve=True))
     assert with_valve.greet()["valve"] == 1
     for is_open in (1, 0):
-        assert with_valve.ask(VENT, open=is_open) is None
+        assert with_valve.ask(protocol.VENT, open=is_open) is None
         with_valve.run(0.05)
         assert with_valve.board.valve_open == bool(is_open)
         assert bool(with_valve.flags & Flag.VALVE_OPEN) == bool(is_open)
@@ -217,9 +196,9 @@ def test_the_emulated_line_is_as_slow_as_the_book_says_and_telemetry_keeps_its_r
     host.board.advance(1.0)
     data, times = host.board.read_timed()
     cycles = np.rint(np.diff(times) * CLOCK)
-    assert np.median(cycles) == EMULATED_BITS * CLOCK / BAUD
+    assert np.median(cycles) == EMULATED_BITS * CLOCK / protocol.BAUD
     # A frame begins after a pause. A timer of the chip says when, to the cycles of an interrupt;
     # so no rate that is judged hangs on how long a byte takes.
     begins = times[1:][cycles > 2 * np.median(cycles)]
     assert data.count(0) > 35
-    assert np.diff(begins) == pytest.approx(TELEMETRY_PERIOD, abs=1e-6)
+    assert np.diff(begins) == pytest.approx(protocol.TELEMETRY_PERIOD, abs=1e-6)

@@ -7,10 +7,10 @@ from softgrip.board.emulated.board import EmulatedBoard, Switch
 from softgrip.board.protocol import HOME, SET_LIMITS, SETPOINT, SPEED_SCALE, Flag, Reason
 from tests.board.emulated import needs_emulator
 from tests.board.host import Host
+from tests.board.stub_board import LIMITS
 
 pytestmark = needs_emulator
 
-LIMITS = {"pressure": 399, "position": 9000, "speed": 4000, "acceleration": 40000, "silence": 200}
 TICK = 0.5e-6
 """Of the timer that makes STEP, s."""
 

@@ -5,18 +5,9 @@ import pytest
 from softgrip.board.emulated.board import PRESSURE
 from softgrip.board.protocol import CLEAR, SETPOINT, SPEED_SCALE, Flag, Reason
 from tests.board.emulated import needs_emulator
-from tests.board.host import pushing_host
+from tests.board.host import PHASES
 
 pytestmark = needs_emulator
-
-PHASES = [0.0, 0.13e-3, 0.37e-3, 0.61e-3, 0.89e-3, 7.2e-3, 19.4e-3]
-"""s: of what happens within the board's tick of 1 ms and its frame of 25 ms."""
-
-
-@pytest.fixture
-def pushing():
-    """A host whose motor pushes at full speed, 600 steps or more from home."""
-    return pushing_host()
 
 
 def may_draw(host):

@@ -20,19 +20,11 @@ from softgrip.board.protocol import (
     ResetCause,
 )
 from tests.board.emulated import needs_emulator
-from tests.board.host import Host, pushing_host
+from tests.board.host import PHASES, Host
 
 pytestmark = needs_emulator
 
 FAST = 4000 * SPEED_SCALE
-PHASES = [0.0, 0.13e-3, 0.37e-3, 0.61e-3, 0.89e-3, 7.2e-3, 19.4e-3]
-"""s: of what happens within the board's tick of 1 ms and its frame of 25 ms."""
-
-
-@pytest.fixture
-def pushing():
-    """A host whose motor pushes at full speed, 600 steps or more from home."""
-    return pushing_host()
 
 
 @pytest.mark.parametrize("phase", PHASES)

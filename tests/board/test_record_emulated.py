@@ -24,11 +24,6 @@ END_NOISE = 2 * DEG / np.sqrt(40) * 4
 """rad: four deviations of the mean of 40 samples of the flex sensor's noise."""
 
 
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "log.csv"
-
-
 def test_chapter_4_pid(path):
     with connect("emulated") as rig:
         rig.home()

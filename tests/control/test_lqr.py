@@ -8,17 +8,8 @@ from hypothesis import strategies as st
 from scipy.linalg import solve_continuous_lyapunov
 from scipy.optimize import brentq
 
-from softgrip.control.lqr import (
-    FINGER,
-    Weights,
-    canonical_form,
-    closed_loop,
-    derivatives_from_full_state,
-    input_gain,
-    linear_settling_time,
-    lqr_gain,
-    step_response,
-)
+from softgrip.control import lqr
+from softgrip.control.lqr import FINGER, Weights, canonical_form, closed_loop, lqr_gain
 from softgrip.control.lqr_bound import closed_loop_poles
 from softgrip.dynamics.second_order import SecondOrder, full_state_space
 from softgrip.errors import InvalidInputError
@@ -100,24 +91,24 @@ def test_printed_weights_do_not_settle_in_the_printed_time(band, time):
 
     assert brentq(left, 2, 8) == pytest.approx(time, abs=1e-3)
     assert all(left(t) < 0 for t in np.linspace(time + 0.01, 20, 500))
-    assert linear_settling_time(FINGER, Weights(), band) == pytest.approx(time, abs=1e-3)
+    assert lqr.linear_settling_time(FINGER, Weights(), band) == pytest.approx(time, abs=1e-3)
 
 
 def test_a_tenth_of_the_rate_weight_and_a_larger_p_do():
-    assert linear_settling_time(FINGER, Weights(30_000.0, (1.0, 0.03, 0.0)), 0.02) < 0.8
+    assert lqr.linear_settling_time(FINGER, Weights(30_000.0, (1.0, 0.03, 0.0)), 0.02) < 0.8
 
 
 @settings(max_examples=30)
 @given(fingers, designs)
 def test_linear_loop_leaves_no_error(finger, weights):
-    assert step_response(finger, weights)[1][-1] == pytest.approx(1, abs=1e-3)
+    assert lqr.step_response(finger, weights)[1][-1] == pytest.approx(1, abs=1e-3)
 
 
 def test_canonical_form_is_the_full_model_in_other_states():
     """Eq. (3.26) and (3.27) with Eq. (3.28) do as the model of pump, angle and rate does."""
     finger, pump_gain, speed = SecondOrder(2.86, 0.7, 1.5e-4), 980.0, 31.4
-    full, gain = full_state_space(finger, pump_gain), input_gain(finger, pump_gain, speed)
-    T = derivatives_from_full_state(finger)
+    full, gain = full_state_space(finger, pump_gain), lqr.input_gain(finger, pump_gain, speed)
+    T = lqr.derivatives_from_full_state(finger)
     other = canonical_form(finger, gain)
     np.testing.assert_allclose(T @ full.A @ np.linalg.inv(T), other.A, atol=1e-9)
     np.testing.assert_allclose(T @ full.B * speed / gain, other.B, atol=1e-12)
@@ -130,7 +121,7 @@ def test_numerator_by_hand():
     """Eq. (3.25) with l = 8 mm, A_s = 6.61 cm^2, C_s = 1 mL/kPa, 5 rev/s and c / M = 1e-3."""
     finger = SecondOrder(2.86, 0.7, gain=1e-3 / 2.86**2)
     pump = pressure_system(Pump(6.61e-4, 0.008), 1e-9)
-    found = input_gain(finger, pump.B.item(), 10 * np.pi)
+    found = lqr.input_gain(finger, pump.B.item(), 10 * np.pi)
     assert found == pytest.approx(0.008 * 6.61e-4 * 5 / 1e-9 * 1e-3)
     s = 0.4 + 1.5j
     printed = found / (s**3 + 2 * 0.7 * 2.86 * s**2 + 2.86**2 * s)
@@ -152,7 +143,9 @@ def test_mapping_gives_the_derivatives_of_a_motion():
     found = control.forced_response(
         full_state_space(finger, 900.0), time, np.ones((1, time.size)), squeeze=False
     )
-    angle, rate, acceleration = derivatives_from_full_state(finger) @ found.states.reshape(3, -1)
+    angle, rate, acceleration = lqr.derivatives_from_full_state(finger) @ found.states.reshape(
+        3, -1
+    )
     np.testing.assert_allclose(np.gradient(angle, time)[1:-1], rate[1:-1], atol=1e-6)
     np.testing.assert_allclose(np.gradient(rate, time)[1:-1], acceleration[1:-1], atol=1e-5)
 

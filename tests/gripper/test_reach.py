@@ -6,15 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from softgrip.errors import InvalidInputError, SoftgripError
+from softgrip.gripper import reach
 from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, state_space
 from softgrip.gripper.printed_loop import equal_targets, run_printed
-from softgrip.gripper.reach import (
-    UnreachableTargetError,
-    direction,
-    outside_share,
-    project,
-    reachable,
-)
+from softgrip.gripper.reach import outside_share, project, reachable
 
 FINGERS = st.builds(FingerDynamics, st.floats(1, 4), st.floats(1, 8), st.floats(1, 10))
 GRIPPERS = st.lists(FINGERS, min_size=2, max_size=5).map(lambda f: Gripper(tuple(f)))
@@ -43,7 +38,7 @@ def test_direction_is_the_column_without_the_pump(gripper, frequency):
     """Eq. (6.1) by the realization with the pump, times s: the fingers alone, Eq. (6.12)."""
     s = 1j * frequency
     column = s * np.ravel(state_space(gripper)(s))
-    assert direction(gripper, frequency) == pytest.approx(column / np.linalg.norm(column))
+    assert reach.direction(gripper, frequency) == pytest.approx(column / np.linalg.norm(column))
 
 
 @pytest.mark.parametrize("frequency", [0.5, 2.0, 10.0])
@@ -89,7 +84,7 @@ def test_printed_projections_within_two_units_of_their_last_digit(share, printed
     assert found.reached / np.pi == pytest.approx(np.array(printed), abs=1.1e-3)
     assert found.residual / np.pi == pytest.approx(np.array(residual), abs=1.1e-3)
     # They come out to the digit if q is cut, not rounded, to three digits.
-    q = np.floor(1000 * direction(PRINTED).real) / 1000
+    q = np.floor(1000 * reach.direction(PRINTED).real) / 1000
     assert np.round(share * q.sum() * q, 3) == pytest.approx(np.array(printed))
 
 
@@ -100,7 +95,7 @@ def test_printed_degrees_are_the_printed_fractions_with_the_fingers_swapped():
 
 
 def test_a_step_along_the_direction_at_rest_is_outside_the_image_on_its_way():
-    at_rest = direction(PRINTED).real
+    at_rest = reach.direction(PRINTED).real
     assert outside_share(PRINTED, at_rest, 0.0) == pytest.approx(0, abs=1e-12)
     # Equal gains: far above the poles both fingers do the same.
     assert outside_share(PRINTED, [1, 1], 1e5) == pytest.approx(0, abs=1e-4)
@@ -115,7 +110,7 @@ def test_fingers_of_one_pole_pair_can_reach_their_direction_at_all_frequencies()
 
 
 def test_opposite_targets_are_refused_with_how_far_and_the_nearest():
-    with pytest.raises(UnreachableTargetError, match="outside") as refused:
+    with pytest.raises(reach.UnreachableTargetError, match="outside") as refused:
         reachable(PRINTED, [-np.pi / 4, np.pi / 4])
     assert isinstance(refused.value, SoftgripError | ValueError)
     assert refused.value.share == pytest.approx(project(PRINTED, [-1, 1]).share)
@@ -123,14 +118,14 @@ def test_opposite_targets_are_refused_with_how_far_and_the_nearest():
 
 
 def test_negative_angles_are_unreachable_though_on_the_line():
-    with pytest.raises(UnreachableTargetError) as refused:
-        reachable(PRINTED, -direction(PRINTED).real)
+    with pytest.raises(reach.UnreachableTargetError) as refused:
+        reachable(PRINTED, -reach.direction(PRINTED).real)
     assert refused.value.nearest == pytest.approx([0, 0])
 
 
 def test_tolerance_decides():
     assert reachable(PRINTED, [1, 1]) == pytest.approx(project(PRINTED, [1, 1]).reached)
-    with pytest.raises(UnreachableTargetError, match=r"0\.0822 outside"):
+    with pytest.raises(reach.UnreachableTargetError, match=r"0\.0822 outside"):
         reachable(PRINTED, [1, 1], tolerance=0.05)
 
 

@@ -42,11 +42,6 @@ CARROT = np.array([0.5, 0.8, 0.2, 0, 0, 0, 0, 0])
 PRESSED = [("line: carrot", 0.5, 0 * CARROT, 0.0), ("", 1.0, CARROT, 1.5)]
 
 
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "pad.csv"
-
-
 def test_contact_is_normalised_by_the_logs_own_calibration(path):
     found = read_contacts(write(path, [*CALIBRATION, *PRESSED]))
     assert (found.kinds.tolist(), found.objects.tolist()) == (["line"], ["carrot"])

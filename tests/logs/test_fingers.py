@@ -5,20 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from book.chapter_6 import results
 from book.chapter_6 import speed as gripper_speed
 from book.chapter_6.comparison import CRITERIA, judged
 from book.chapter_6.controllers import best_command, own_model, printed_model, target_angles
 from book.chapter_6.grasps import STEP, grasp
 from book.chapter_6.logs import LOGS, names_of
-from book.chapter_6.results import (
-    bounds,
-    identified,
-    identified_without_noise,
-    largest_weight,
-    logs_of,
-    push_response,
-    recovery,
-)
 from book.companion.simulated_logs import make
 from softgrip.control.state_feedback import SPEED_DIGITS
 from softgrip.dynamics.second_order import SecondOrder, response
@@ -66,11 +58,11 @@ def test_logs_hold_both_fingers_and_say_when_they_were_pushed():
     log = read_log(data_file(names_of("push")[0]).path)
     assert log.repairs == ()
     assert [words for _, words in log.events] == ["push on the left finger", "released"]
-    runs = logs_of("push")
+    runs = results.logs_of("push")
     assert runs.angles.shape == (7, 2, runs.time.size)
     np.testing.assert_array_equal(runs.angles[0, 1], log["angle_2"])
     np.testing.assert_allclose(runs.references[:, 0], target_angles(own_model()), rtol=1e-8)
-    assert logs_of("open").references.size == 0
+    assert results.logs_of("open").references.size == 0
 
 
 def test_logs_of_one_finger_or_other_times_are_refused():
@@ -145,8 +137,11 @@ def test_calibration_file_is_what_the_code_gives(tmp_path):
 
 
 def test_noise_of_the_sensor_makes_most_of_the_deviations_of_seven_runs():
-    noisy, quiet = bounds(identified("open")), bounds(identified_without_noise())
-    assert all(len(runs) == 7 for runs in identified("open"))
+    noisy, quiet = (
+        results.bounds(results.identified("open")),
+        results.bounds(results.identified_without_noise()),
+    )
+    assert all(len(runs) == 7 for runs in results.identified("open"))
     assert (noisy > 1.5 * quiet).all()
     assert (quiet[:, 1] > 0.059).all()
     assert (noisy[:, 1] > 2 * 0.059).all()
@@ -175,10 +170,10 @@ def test_best_possible_command_cannot_settle_the_model_in_the_printed_time():
 
 
 def test_a_push_is_worked_off_but_moves_the_other_finger_too():
-    time, off = push_response()
+    time, off = results.push_response()
     assert -3 * DEG < off[0].min() < -1 * DEG
     assert 0.2 * DEG < off[1].max() < 1 * DEG
-    left, right = recovery()
+    left, right = results.recovery()
     assert right < left
     assert 0 < left < 1.5
     assert abs(off[:, -1]).max() < 0.1 * DEG
@@ -206,6 +201,6 @@ def test_half_the_step_changes_the_hardest_blow_by_less_than_two_percent():
 
 
 def test_a_slower_push_asks_for_a_larger_weight_until_it_identifies_nothing():
-    fast, slow = largest_weight(5 * REV), largest_weight(0.5 * REV)
+    fast, slow = results.largest_weight(5 * REV), results.largest_weight(0.5 * REV)
     assert 1.05 < slow / fast < 1.3
-    assert largest_weight(0.1 * REV) is None
+    assert results.largest_weight(0.1 * REV) is None

@@ -54,11 +54,6 @@ def retimed(path, kept, time):
     return rewrite(path, kept, change)
 
 
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "log.csv"
-
-
 @pytest.fixture(scope="module")
 def whole():
     return identify_capacity(PUSH), compare(PUSH), staircase_figures(STAIRCASE)

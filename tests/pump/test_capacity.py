@@ -7,14 +7,8 @@ import pytest
 from scipy.stats import chi2
 
 from softgrip.errors import InvalidInputError
+from softgrip.pump import elastance
 from softgrip.pump.capacity import estimate
-from softgrip.pump.elastance import (
-    ElastanceModel,
-    NoiseLevels,
-    Prior,
-    elastance_filter,
-    transitions,
-)
 from softgrip.pump.flow import PARAMETER_SETS
 from softgrip.pump.observability import observable_rank
 
@@ -22,9 +16,9 @@ from .gaussian import JointGaussian
 
 DT = 0.025
 FLOW = PARAMETER_SETS["default"].flow
-NOISE = NoiseLevels(pressure_step=40.0, elastance_step=2e7, sensor=150.0)
-PRIOR = Prior(pressure=0.0, pressure_std=200.0, elastance=1e9, elastance_std=2e8)
-MODEL = ElastanceModel(DT, NOISE, PRIOR, angle_gain=-3e8)
+NOISE = elastance.NoiseLevels(pressure_step=40.0, elastance_step=2e7, sensor=150.0)
+PRIOR = elastance.Prior(pressure=0.0, pressure_std=200.0, elastance=1e9, elastance_std=2e8)
+MODEL = elastance.ElastanceModel(DT, NOISE, PRIOR, angle_gain=-3e8)
 SCALE = np.array([1e4, 1e9])
 
 
@@ -40,7 +34,9 @@ def simulate(model, flow, angle, runs, seed):
         axis=-1,
     )
     states = [x]
-    for F, turn in zip(transitions(flow[:-1], model.time_step), np.diff(angle), strict=True):
+    for F, turn in zip(
+        elastance.transitions(flow[:-1], model.time_step), np.diff(angle), strict=True
+    ):
         w = rng.normal(0, [noise.pressure_step, noise.elastance_step], (runs, 2))
         x = x @ F.T + [0.0, model.angle_gain * turn] + w
         states.append(x)
@@ -49,9 +45,9 @@ def simulate(model, flow, angle, runs, seed):
 
 
 def oracle_of(model, flow, angle):
-    kalman = elastance_filter(model)
+    kalman = elastance.elastance_filter(model)
     b = np.stack([np.zeros(len(flow) - 1), model.angle_gain * np.diff(angle)], axis=-1)
-    F = transitions(flow[:-1], model.time_step)
+    F = elastance.transitions(flow[:-1], model.time_step)
     return JointGaussian(F, b, kalman.H, kalman.Q, kalman.R, kalman.x[:, 0], kalman.P)
 
 
@@ -165,9 +161,9 @@ def test_wrong_noise_levels_are_seen(monte_carlo, wrong):
 
 
 def test_elastance_is_observable_as_soon_as_the_pump_moves():
-    H = elastance_filter(MODEL).H
-    assert observable_rank(transitions(np.zeros(50), DT), H, SCALE) == 1
-    assert observable_rank(transitions([0, 0, FLOW], DT), H, SCALE) == 2
+    H = elastance.elastance_filter(MODEL).H
+    assert observable_rank(elastance.transitions(np.zeros(50), DT), H, SCALE) == 1
+    assert observable_rank(elastance.transitions([0, 0, FLOW], DT), H, SCALE) == 2
 
 
 def test_pump_at_rest_teaches_nothing_of_the_elastance():
@@ -196,8 +192,8 @@ def test_capacity_is_nan_where_noise_has_pushed_the_elastance_below_zero(short):
 
 
 def test_state_stays_a_column():
-    kalman = elastance_filter(MODEL)
-    kalman.predict(u=np.array([[0.1]]), F=transitions([FLOW], DT)[0])
+    kalman = elastance.elastance_filter(MODEL)
+    kalman.predict(u=np.array([[0.1]]), F=elastance.transitions([FLOW], DT)[0])
     kalman.update(10.0)
     assert kalman.x.shape == (2, 1)
 
@@ -218,9 +214,9 @@ def test_bad_records_are_refused(short):
 @pytest.mark.parametrize(
     "make",
     [
-        lambda: NoiseLevels(-1.0, 0.0, 1.0),
-        lambda: NoiseLevels(0.0, 0.0, 0.0),
-        lambda: Prior(0.0, 1.0, -1e9, 1e8),
+        lambda: elastance.NoiseLevels(-1.0, 0.0, 1.0),
+        lambda: elastance.NoiseLevels(0.0, 0.0, 0.0),
+        lambda: elastance.Prior(0.0, 1.0, -1e9, 1e8),
         lambda: dataclasses.replace(MODEL, time_step=0.0),
         lambda: dataclasses.replace(MODEL, angle_gain=float("inf")),
     ],

@@ -40,11 +40,6 @@ def failed(bands):
     return [band.quantity.partition(": ")[2] or band.quantity for band in bands if not band.passed]
 
 
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "step.csv"
-
-
 @pytest.mark.parametrize(
     ("experiment", "fingers", "period"), [("lqr", 1, 0.025), ("pid", 1, 0.025), ("gripper", 2, 0.1)]
 )

@@ -26,11 +26,6 @@ KEPT = data_folder() / "simulated" / "staircase.csv"
 SOON = 60.0  # s: far more than anything takes on a busy machine, so that a hang is a failure
 
 
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "log.csv"
-
-
 def until(done, within=SOON):
     end = time.monotonic() + within
     while not done():

@@ -31,18 +31,6 @@ from softgrip.simulator.simulation import Simulation
 FOLDER = data_folder() / "simulated"
 
 
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "log.csv"
-
-
-@pytest.fixture
-def rig(stub):
-    with Board(stub) as opened:
-        opened.home()
-        yield opened
-
-
 def finger():
     return SimulatedRig(Simulation(design_1(), seed=SEED))
 

@@ -7,41 +7,33 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softgrip.simulator.force_layer import (
-    CALIBRATED,
-    ForceLayer,
-    bridge_voltage,
-    conductance,
-    felt_force,
-    layer_voltage,
-    read_counts,
-    volts,
-)
+from softgrip.simulator import force_layer
+from softgrip.simulator.force_layer import ForceLayer
 from softgrip.units import GRAM_FORCE
 
 LAYER = ForceLayer()
 
 
 def test_resistance_falls_from_one_end_to_the_other():
-    ends = 1 / conductance(np.array([0.0, 1e3]), 0.0, LAYER)
+    ends = 1 / force_layer.conductance(np.array([0.0, 1e3]), 0.0, LAYER)
     assert ends == pytest.approx([20e3, 5e3])
-    assert (np.diff(conductance(np.linspace(0, 1, 50), 0.0, LAYER)) > 0).all()
+    assert (np.diff(force_layer.conductance(np.linspace(0, 1, 50), 0.0, LAYER)) > 0).all()
 
 
 def test_bridge_is_balanced_at_rest_and_kirchhoff_holds():
-    found = bridge_voltage(np.array([1 / 20e3, 1 / 5e3]), LAYER)
+    found = force_layer.bridge_voltage(np.array([1 / 20e3, 1 / 5e3]), LAYER)
     # Two dividers of 5 V: 1.5 k below 5 k against 1.5 k below 20 k.
     assert found == pytest.approx([0, 5 * (1.5 / 6.5 - 1.5 / 21.5)], abs=1e-12)
 
 
 def test_largest_voltage_leaves_a_fifth_of_the_scale():
-    assert layer_voltage(np.array([1e3]), 0.0, LAYER)[0] == pytest.approx(4.0, abs=0.05)
+    assert force_layer.layer_voltage(np.array([1e3]), 0.0, LAYER)[0] == pytest.approx(4.0, abs=0.05)
 
 
 def test_a_gram_force_is_about_a_count_at_the_end_of_the_range():
     # What soft_force is calibrated to: a check of the calibration, no finding.
     force = np.array([0.7 - GRAM_FORCE, 0.7])
-    counts = np.diff(layer_voltage(force, 0.0, LAYER))[0] / 5 * 1023
+    counts = np.diff(force_layer.layer_voltage(force, 0.0, LAYER))[0] / 5 * 1023
     assert counts == pytest.approx(1, abs=0.1)
 
 
@@ -52,46 +44,50 @@ def test_memory_is_that_of_two_lags():
     lagging = sum(
         part * np.exp(-time / lag) for part, lag in zip(LAYER.memory, LAYER.lag, strict=True)
     )
-    np.testing.assert_allclose(felt_force(force, period, LAYER), held * (1 - lagging), rtol=1e-12)
+    np.testing.assert_allclose(
+        force_layer.felt_force(force, period, LAYER), held * (1 - lagging), rtol=1e-12
+    )
 
 
 def test_finer_samples_of_a_held_force_change_nothing():
-    coarse = felt_force(np.repeat([0.1, 0.5, 0.0], 20), 0.1, LAYER)
-    fine = felt_force(np.repeat([0.1, 0.5, 0.0], 40), 0.05, LAYER)
+    coarse = force_layer.felt_force(np.repeat([0.1, 0.5, 0.0], 20), 0.1, LAYER)
+    fine = force_layer.felt_force(np.repeat([0.1, 0.5, 0.0], 40), 0.05, LAYER)
     np.testing.assert_allclose(fine[::2], coarse, rtol=1e-12, atol=1e-15)
 
 
 @given(peak=st.floats(0.05, 0.7))
 def test_unloading_feels_more_than_loading(peak):
     ramp = np.linspace(0, peak, 100)
-    felt = felt_force(np.concatenate([ramp, ramp[::-1]]), 0.05, LAYER)
+    felt = force_layer.felt_force(np.concatenate([ramp, ramp[::-1]]), 0.05, LAYER)
     assert (felt[100:][::-1][1:-1] > felt[:100][1:-1]).all()
 
 
 def test_without_memory_there_is_no_hysteresis():
     bare = replace(LAYER, memory=(0.0, 0.0))
     force = np.linspace(0, 0.7, 50)
-    np.testing.assert_array_equal(felt_force(force, 0.05, bare), force)
+    np.testing.assert_array_equal(force_layer.felt_force(force, 0.05, bare), force)
 
 
 def test_drift_adds_and_multiplies():
     at_rest, later = (
-        conductance(np.array([0.2]), 0.0, LAYER),
-        conductance(np.array([0.2]), 2.0, LAYER),
+        force_layer.conductance(np.array([0.2]), 0.0, LAYER),
+        force_layer.conductance(np.array([0.2]), 2.0, LAYER),
     )
     assert later / at_rest == pytest.approx(1 + 2 * LAYER.gain_drift)
     only = replace(LAYER, gain_drift=0.0)
-    grown = layer_voltage(np.array([0.2]), 2.0, only) - layer_voltage(np.array([0.2]), 0.0, only)
+    grown = force_layer.layer_voltage(np.array([0.2]), 2.0, only) - force_layer.layer_voltage(
+        np.array([0.2]), 0.0, only
+    )
     assert grown == pytest.approx(2 * LAYER.offset_drift)
 
 
 def test_counts_are_whole_cut_and_read_backwards():
     voltage = np.array([-1.0, 0.0, 2.5, 9.0])
-    counts = read_counts(voltage, np.zeros(4), LAYER)
+    counts = force_layer.read_counts(voltage, np.zeros(4), LAYER)
     assert counts.tolist() == [0, 0, 512, 1023]
-    assert abs(volts(counts, LAYER)[2] - 2.5) <= 2.5 / 1023
-    assert volts(counts, LAYER)[3] == 5.0
+    assert abs(force_layer.volts(counts, LAYER)[2] - 2.5) <= 2.5 / 1023
+    assert force_layer.volts(counts, LAYER)[3] == 5.0
 
 
 def test_what_is_calibrated_is_a_parameter():
-    assert set(CALIBRATED) <= {field.name for field in fields(ForceLayer)}
+    assert set(force_layer.CALIBRATED) <= {field.name for field in fields(ForceLayer)}

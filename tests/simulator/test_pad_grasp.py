@@ -6,21 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from book.chapter_2.grasps import (
-    FRICTION,
-    OBJECTS,
-    RUNS,
-    at_rest,
-    count_forces,
-    desired_force,
-    held_share,
-    position_gains,
-    position_study,
-    squeezes,
-    study,
-    study_gains,
-    summary,
-)
+from book.chapter_2 import grasps
 from softgrip.control.pid import PERIOD
 from softgrip.simulator.force_layer import ForceLayer, felt_force, layer_voltage, read_counts
 from softgrip.simulator.pad_grasp import PadGrasp, grasp
@@ -37,40 +23,42 @@ def test_memory_of_the_layer_is_that_of_its_logs(monkeypatch):
         lambda: replace(LAYER, object_seating=0.0, voltage_noise=0.0),
     )
     gripper = replace(GraspGripper(), opening=0.0)
-    plant = PadGrasp(squeezes()["egg"], gripper, count_forces(), samples=101, runs=1, seed=0)
+    plant = PadGrasp(
+        grasps.squeezes()["egg"], gripper, grasps.count_forces(), samples=101, runs=1, seed=0
+    )
     targets = 1e-3 * np.abs(np.sin(np.arange(100) / 9))
     read = [plant.advance(0.0, 0.0), *(plant.advance(x, PERIOD) for x in targets)]
     force = np.array(plant.force)[:, 0]
     quiet = replace(LAYER, voltage_noise=0.0)
     voltage = layer_voltage(felt_force(force, PERIOD, LAYER), 0.0, LAYER)
-    want = count_forces()[read_counts(voltage, np.zeros(force.size), quiet)]
+    want = grasps.count_forces()[read_counts(voltage, np.zeros(force.size), quiet)]
     np.testing.assert_array_equal(np.array(read)[:, 0], want)
     assert force.max() > 0.05
 
 
-@pytest.mark.parametrize("name", OBJECTS)
+@pytest.mark.parametrize("name", grasps.OBJECTS)
 def test_change_of_position_brings_the_reading_to_the_desired_force(name):
-    found = summary(study(name))
+    found = grasps.summary(grasps.study(name))
     # A few counts of the converter, each some 0.35 to 1.4 mN.
     assert abs(found.steady_error) < 1e-3
     assert found.overshoot < 0.1
     assert found.settling_time < 5
 
 
-@pytest.mark.parametrize("name", OBJECTS)
+@pytest.mark.parametrize("name", grasps.OBJECTS)
 def test_true_force_scatters_as_the_layer_is_seated(name):
     """Independent: the reading is right, so the true force is it by the part that is felt."""
-    found = summary(study(name))
+    found = grasps.summary(grasps.study(name))
     # Deviation of a deviation of 200: five per cent; the regressor's own errors add up to it.
     assert found.force_deviation / found.force == pytest.approx(LAYER.object_seating, rel=0.25)
 
 
-@pytest.mark.parametrize("name", OBJECTS)
+@pytest.mark.parametrize("name", grasps.OBJECTS)
 def test_position_rests_where_force_and_command_agree(name):
-    made = position_study(name)
-    wanted, closing = desired_force(name), squeezes()[name]
-    kp = float(position_gains().kp)
-    measured, true = at_rest(made, made.measured), at_rest(made, made.force)
+    made = grasps.position_study(name)
+    wanted, closing = grasps.desired_force(name), grasps.squeezes()[name]
+    kp = float(grasps.position_gains().kp)
+    measured, true = grasps.at_rest(made, made.measured), grasps.at_rest(made, made.force)
     # A step of the servo, and the curvature over a ripple of about one.
     ends = [closing.at(kp * (wanted - measured) + d * GraspGripper().resolution) for d in (-1, 1)]
     assert ((ends[0] <= true) & (true <= ends[1])).all()
@@ -80,10 +68,10 @@ def test_position_rests_where_force_and_command_agree(name):
 def test_a_run_is_the_same_in_any_batch():
     one, many = (
         grasp(
-            squeezes()["carrot"],
-            study_gains(),
+            grasps.squeezes()["carrot"],
+            grasps.study_gains(),
             0.08,
-            count_forces(),
+            grasps.count_forces(),
             duration=2.0,
             runs=runs,
             seed=3,
@@ -95,28 +83,28 @@ def test_a_run_is_the_same_in_any_batch():
 
 
 def test_harder_rubber_holds_less_and_weights_decide():
-    for name in OBJECTS:
-        shares = [held_share(name, friction) for friction in (0.5, 0.9, 1.0, 1.1, 2.0)]
+    for name in grasps.OBJECTS:
+        shares = [grasps.held_share(name, friction) for friction in (0.5, 0.9, 1.0, 1.1, 2.0)]
         assert shares == sorted(shares)
         assert (shares[0], shares[-1]) == (0.0, 1.0)
 
 
 def test_held_share_is_that_of_a_normal_force():
     """By hand for the egg: the share of a normal force above weight / 2 (friction 1)."""
-    found = summary(study("egg"))
+    found = grasps.summary(grasps.study("egg"))
     least = float(printed_grasps()["egg"].weight) / 2
     want = norm.sf((least - found.force) / found.force_deviation)
     # Four deviations of a share of 200.
-    assert held_share("egg") == pytest.approx(want, abs=4 * 0.5 / RUNS**0.5)
+    assert grasps.held_share("egg") == pytest.approx(want, abs=4 * 0.5 / grasps.RUNS**0.5)
 
 
 def test_study_friction_is_among_what_the_print_leaves():
     common = common_friction()
-    assert common.low <= FRICTION <= common.high
+    assert common.low <= grasps.FRICTION <= common.high
 
 
 def test_four_times_the_gains_make_the_stiff_contacts_swing():
-    egg, tofu = (summary(study(name, 4.0)).ripple for name in ("egg", "tofu"))
-    assert egg > 20 * summary(study("egg")).ripple
+    egg, tofu = (grasps.summary(grasps.study(name, 4.0)).ripple for name in ("egg", "tofu"))
+    assert egg > 20 * grasps.summary(grasps.study("egg")).ripple
     # Seven times softer, the tofu has the loop gain of the egg with half the gains.
     assert tofu < 2e-3

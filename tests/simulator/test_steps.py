@@ -10,15 +10,11 @@ from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.logs.reader import read_log
 from softgrip.logs.repeated_steps import read_step_test
 from softgrip.provenance import data_file
+from softgrip.simulator import steps
 from softgrip.simulator.calibration import design_1, design_3
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.parameters import PumpParameters
 from softgrip.simulator.simulation import Simulation
-from softgrip.simulator.steps import (
-    simulate_step_test,
-    step_commands,
-    travel_to,
-)
 from softgrip.units import DEG, MM
 
 PATHS = [data_file(f"simulated/step-fx-90-{run}.csv").path for run in range(1, 8)]
@@ -27,7 +23,7 @@ PATHS = [data_file(f"simulated/step-fx-90-{run}.csv").path for run in range(1, 8
 @pytest.mark.parametrize("plunger", [0.4 * MM, 1.0 * MM, 3.3 * MM, 25.3 * MM, 60 * MM])
 def test_plunger_goes_where_it_should(plunger):
     rig = Simulation(design_1())
-    _, truth = rig.open_loop(step_commands(plunger))
+    _, truth = rig.open_loop(steps.step_commands(plunger))
     assert truth.plunger[-1, 0] == pytest.approx(plunger, rel=1e-9)
     assert abs(truth.motor_speed).max() <= PumpParameters().speed_limit * (1 + 1e-12)
 
@@ -37,12 +33,12 @@ def test_plunger_goes_where_it_should(plunger):
 )
 def test_kept_travels_are_those_of_the_median_finger(design, kept):
     for degrees, plunger in kept.items():
-        assert travel_to(design(), degrees * DEG) == pytest.approx(plunger, abs=0.05 * MM)
+        assert steps.travel_to(design(), degrees * DEG) == pytest.approx(plunger, abs=0.05 * MM)
 
 
 def test_simulated_runs_are_those_of_the_logs_without_sensors():
     test = read_step_test(PATHS)
-    true = simulate_step_test(design_3(), STEP_PLUNGER_FX[90], runs=7, seed=SEED)
+    true = steps.simulate_step_test(design_3(), STEP_PLUNGER_FX[90], runs=7, seed=SEED)
     np.testing.assert_allclose(true.time, test.time)
     # Noise of 2 deg over 240 samples; the sensor lags by 0.04 s while the finger moves.
     off = (test.angles - true.angles)[:, -100:].mean(axis=1)
@@ -67,4 +63,4 @@ def test_logs_of_other_times_are_refused(tmp_path):
 
 def test_travel_must_be_above_zero():
     with pytest.raises(InvalidInputError, match="plunger"):
-        step_commands(0.0)
+        steps.step_commands(0.0)

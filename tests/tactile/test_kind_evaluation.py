@@ -6,14 +6,7 @@ from sklearn.base import BaseEstimator, ClassifierMixin
 from sklearn.neighbors import KNeighborsClassifier
 
 from softgrip.errors import InvalidInputError
-from softgrip.tactile.kind_evaluation import (
-    accuracy,
-    cross_validated,
-    cross_validated_by_object,
-    right_on_new,
-    split_score,
-    train_and_test,
-)
+from softgrip.tactile import kind_evaluation
 
 KINDS = np.array(["point", "line", "surface"])
 
@@ -36,7 +29,7 @@ def numbered(count):
 
 def test_split_is_504_and_126_with_the_shares_kept():
     _, kinds = numbered(630)
-    train, test = train_and_test(kinds, seed=3)
+    train, test = kind_evaluation.train_and_test(kinds, seed=3)
     assert sorted([*train, *test]) == list(range(630))
     assert (train.size, test.size) == (504, 126)
     assert [(kinds[test] == kind).sum() for kind in KINDS] == [42, 42, 42]
@@ -44,8 +37,8 @@ def test_split_is_504_and_126_with_the_shares_kept():
 
 def test_no_contact_is_tested_on_itself():
     x, kinds = numbered(60)
-    assert not cross_validated(Remembers(), x, kinds, seed=0).any()
-    score = split_score(Remembers(), x, kinds, seed=0)
+    assert not kind_evaluation.cross_validated(Remembers(), x, kinds, seed=0).any()
+    score = kind_evaluation.split_score(Remembers(), x, kinds, seed=0)
     assert (score.cross_validated.correct, score.cross_validated.total) == (0, 48)
     assert (score.tested.correct, score.tested.total) == (0, 12)
 
@@ -54,22 +47,22 @@ def test_no_object_is_tested_on_itself_though_its_contacts_at_random_are():
     objects = np.repeat(np.arange(6), 10)
     x = objects[:, None].astype(float)  # all contacts of an object are alike
     kinds = KINDS[objects % 3]
-    assert cross_validated(Remembers(), x, kinds, seed=0).all()
-    assert not cross_validated_by_object(Remembers(), x, kinds, objects).any()
+    assert kind_evaluation.cross_validated(Remembers(), x, kinds, seed=0).all()
+    assert not kind_evaluation.cross_validated_by_object(Remembers(), x, kinds, objects).any()
 
 
 def test_right_answers_are_those_of_the_fitted_model():
     rng = np.random.default_rng(0)
     x, kinds = rng.random((40, 2)), KINDS[np.arange(40) % 3]
     model = KNeighborsClassifier(1)
-    right = right_on_new(model, x[:30], kinds[:30], x[30:], kinds[30:])
+    right = kind_evaluation.right_on_new(model, x[:30], kinds[:30], x[30:], kinds[30:])
     nearest = np.linalg.norm(x[30:, None] - x[None, :30], axis=2).argmin(axis=1)
     assert right.tolist() == (kinds[nearest] == kinds[30:]).tolist()
-    assert accuracy(right).correct == right.sum()
+    assert kind_evaluation.accuracy(right).correct == right.sum()
     assert not hasattr(model, "classes_")  # a copy was fitted
 
 
 def test_one_object_cannot_be_left_out():
     x, kinds = numbered(6)
     with pytest.raises(InvalidInputError, match="at least two objects"):
-        cross_validated_by_object(Remembers(), x, kinds, ["egg"] * 6)
+        kind_evaluation.cross_validated_by_object(Remembers(), x, kinds, ["egg"] * 6)

@@ -27,12 +27,8 @@ from softgrip.logs.reader import read_log
 from softgrip.logs.staircase import lag, mean_edge, staircase_figures
 from softgrip.logs.steps import smoothed, step_figures, step_log_figures
 from softgrip.provenance import Provenance, data_file
-from softgrip.simulator.calibration import (
-    OPERATING_ANGLE,
-    design_1,
-    small_signal_poles,
-    small_signal_stiffness,
-)
+from softgrip.simulator import calibration
+from softgrip.simulator.calibration import OPERATING_ANGLE, design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
 from softgrip.simulator.simulation import Simulation
@@ -63,9 +59,9 @@ def test_identified_finger_is_near_the_small_signal_truth(model):
     # about n = 2.5 than its slope there, so the frequency is lower than the 2.86 rad/s that the rig
     # is calibrated to at 60 deg, by up to sqrt(2.5).
     true = design_1().finger
-    frequency = abs(small_signal_poles(true, OPERATING_ANGLE)[0])
+    frequency = abs(calibration.small_signal_poles(true, OPERATING_ANGLE)[0])
     assert frequency / 2.5**0.5 * 0.85 < model.finger.natural_frequency < frequency
-    secant = small_signal_stiffness(true, OPERATING_ANGLE) / 2.5
+    secant = calibration.small_signal_stiffness(true, OPERATING_ANGLE) / 2.5
     # The settled gain, less what the slow memory still holds after 6 s (at most 5 %), with spread.
     assert model.finger.gain == pytest.approx(true.torque_per_pressure / secant, rel=0.12)
 
