@@ -1,6 +1,7 @@
 """What the bench says of one subject, and how it takes times."""
 
 import json
+import tracemalloc
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -33,6 +34,30 @@ class Entry:
     wanted: str
     met: bool | None
     note: str
+
+
+def entry(
+    name: str,
+    value: float,
+    unit: str,
+    baseline: float | None,
+    wanted: str,
+    met: bool | None,
+    note: str,
+) -> Entry:
+    """Return an entry with its ratio."""
+    ratio = None if baseline is None else baseline / value
+    return Entry(name, value, unit, baseline, ratio, wanted, met, note)
+
+
+def peak_memory(function: Callable[[], object]) -> float:
+    """Return the largest memory that one call takes at a time, MB, by tracemalloc."""
+    tracemalloc.start()
+    try:
+        function()
+        return tracemalloc.get_traced_memory()[1] / 1e6
+    finally:
+        tracemalloc.stop()
 
 
 def timed(function: Callable[[], object]) -> float:

@@ -1,6 +1,5 @@
 """Many grippers in the sampled loop, against python-control called for each pair and period."""
 
-import tracemalloc
 from collections.abc import Sequence
 
 import control
@@ -18,8 +17,8 @@ from softgrip.gripper.monte_carlo import Keep, Outcome, in_parts, joined, simula
 from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, state_space
 from softgrip.gripper.reach import project
 from softgrip.gripper.shaping_filter import SLOW, filter_state_space
-from tests.bench.entry import Entry, interleaved, spread
-from tests.bench.growth import exponent
+from tests.bench.entry import Entry, entry, interleaved, peak_memory, spread
+from tests.bench.growth import growth_entry, listed
 
 TRIAL = Trial(tuple(project(PRINTED, [np.pi / 4] * 2).reached.tolist()), limit=3.0)
 """Within 3 the printed loop for 2/s is cut off, as a motor would."""
@@ -89,21 +88,16 @@ def entries(
         f" and scaled to {pairs:,}. Both on one thread. Medians of {repetitions} turns"
     )
     found = [
-        Entry(
-            f"{pairs:,} gripper pairs, {name}",
-            value,
-            "s",
-            plain,
-            plain / value,
-            f"ratio >= {wanted:,}",
-            plain / value >= wanted,
+        entry(
+            f"{pairs:,} gripper pairs, {name}", value, "s", plain,
+            f"ratio >= {wanted:,}", plain / value >= wanted,
             f"{how} ({spread(seconds[:, column])}).",
         )
         for column, name, value, wanted in (
             (0, "metrics", metrics, WANTED),
             (1, "trajectories", kept, WANTED_KEPT),
         )
-    ]
+    ]  # fmt: skip
     return [
         *found,
         _equality(plain_pairs),
@@ -120,54 +114,29 @@ def _equality(pairs: int) -> Entry:
     error = max(
         float(np.abs(found.angles - true).max()), float(np.abs(found.synchronization - apart).max())
     )
-    return Entry(
+    return entry(
         "gripper pairs, largest difference from the baseline",
-        error,
-        "rad",
-        None,
-        None,
-        f"< {ALLOWED:g}",
-        error < ALLOWED,
+        error, "rad", None, f"< {ALLOWED:g}", error < ALLOWED,
         f"All points of {pairs} pairs, the same that were timed, and the largest difference between"
         " two fingers (a share).",
-    )
+    )  # fmt: skip
 
 
 def _growth(pairs: Sequence[int]) -> Entry:
     with threadpool_limits(1):
         works = [lambda count=count: ours(count) for count in pairs]
         seconds = np.median(interleaved(*works, repetitions=3), axis=0)
-    power = exponent(pairs, seconds)
-    listed = ", ".join(f"{n:,}: {1e3 * s:.0f} ms" for n, s in zip(pairs, seconds, strict=True))
-    return Entry(
-        f"growth of time, {pairs[0]:,} to {pairs[-1]:,} gripper pairs",
-        power,
-        "exponent",
-        1.0,
-        1 / power,
-        "0.8 to 1.1",
-        0.8 <= power <= 1.1,
-        f"Log-log fit of medians of 3 ({listed}).",
-    )
+    note = f"Log-log fit of medians of 3 ({listed(pairs, seconds)})."
+    return growth_entry("gripper pairs", pairs, seconds, note)
 
 
 def _memory(pairs: int) -> Entry:
-    tracemalloc.start()
-    try:
-        ours(pairs, "trajectories")
-        peak = tracemalloc.get_traced_memory()[1] / 1e6
-    finally:
-        tracemalloc.stop()
+    peak = peak_memory(lambda: ours(pairs, "trajectories"))
     whole = 8e-6 * pairs * 2 * (TRIAL.points + 1)
     most = 2.5 * MEMORY / 1e6
-    return Entry(
+    return entry(
         f"peak memory, trajectories of {pairs:,} gripper pairs",
-        peak,
-        "MB",
-        whole,
-        whole / peak,
-        f"<= {most:g} MB",
-        peak <= most,
+        peak, "MB", whole, f"<= {most:g} MB", peak <= most,
         f"By tracemalloc. Baseline: the trajectories alone, if kept. A part takes"
         f" {MEMORY / 1e6:g} MB at most, and the part before is still held.",
-    )
+    )  # fmt: skip

@@ -7,7 +7,7 @@ from statsmodels.nonparametric.kernel_regression import KernelReg
 
 from softgrip.tactile.kernel_average import BLOCK
 from softgrip.tactile.nadaraya_watson import NadarayaWatson
-from tests.bench.entry import Entry, interleaved, spread
+from tests.bench.entry import Entry, entry, interleaved, spread
 
 QUERIES = 1_000_000
 SIZES = {69: 8.0, 10_000: 250.0}
@@ -75,21 +75,15 @@ def entries(
         )
         times = interleaved(ours, theirs, named, repetitions=repetitions)
         scaled = times * np.array([1, queries / len(few), queries / other])
-        mine, plain_time, named_time = np.median(scaled, axis=0)
-        ratio = float(plain_time / mine)
+        mine, plain_time, named_time = np.median(scaled, axis=0).tolist()
         found.append(
-            Entry(
-                f"kernel regression, {points:,} points",
-                float(mine),
-                "s",
-                float(plain_time),
-                ratio,
-                f">= {wanted:g} times",
-                ratio >= wanted and apart < ALLOWED,
+            entry(
+                f"kernel regression, {points:,} points", mine, "s", plain_time,
+                f">= {wanted:g} times", plain_time / mine >= wanted and apart < ALLOWED,
                 f"{queries:,} queries, fit included ({spread(times[:, 0])}); baseline: blocks of"
                 f" a NumPy broadcast, {len(few):,} queries, scaled up. statsmodels, {other:,}"
                 f" queries, scaled up: {named_time:.3g} s, {named_time / mine:.3g} times."
                 f" Largest relative difference {apart:.1g}.",
             )
-        )
+        )  # fmt: skip
     return found

@@ -12,7 +12,7 @@ from softgrip.tactile.contact_pose import place
 from softgrip.tactile.fast_kind import FastKind
 from softgrip.tactile.nadaraya_watson import NadarayaWatson
 from softgrip.tactile.pad_layout import THREE_TWO_THREE
-from tests.bench.entry import Entry
+from tests.bench.entry import Entry, entry
 
 PARTS = ("kind", "place", "force")
 WANTED = 10.0
@@ -72,14 +72,9 @@ def entries(*, count: int = 5000, plain: int = 200, repetitions: int = 3) -> lis
         value = float(np.median(each))
         other = float(np.median(np.percentile(baseline, percent, axis=1)))
         found.append(
-            Entry(
-                f"pad reading, p{percent}",
-                value,
-                "ms",
-                other,
-                other / value,
-                f"ratio >= {WANTED:g}",
-                other / value >= WANTED,
+            entry(
+                f"pad reading, p{percent}", value, "ms", other,
+                f"ratio >= {WANTED:g}", other / value >= WANTED,
                 f"{count:,} readings of the simulated pad to kind, place and force, one at a time,"
                 f" the processor's time; baseline: the same with scikit-learn's own bagging"
                 f" ({plain} readings), whose shares of votes are"
@@ -87,5 +82,5 @@ def entries(*, count: int = 5000, plain: int = 200, repetitions: int = 3) -> lis
                 f" Median of {repetitions} turns ({each.min():.3f} to {each.max():.3f} ms)."
                 f" Median of each part, ms: {listed}. Slowest reading {whole.max():.2f} ms.",
             )
-        )
+        )  # fmt: skip
     return found

@@ -5,7 +5,7 @@ import numpy as np
 from softgrip.arrays import chunks
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.simulation import Simulation
-from tests.bench.entry import Entry, interleaved, spread
+from tests.bench.entry import Entry, entry, interleaved, spread
 
 PERIOD = 0.025
 WANTED_SINGLY, WANTED_IN_BATCHES = 50, 5000
@@ -53,17 +53,11 @@ def entries(*, seconds: float = 10.0, runs: int = 1000, repetitions: int = 7) ->
     ):
         value = float(np.median(times[:, column]))
         found.append(
-            Entry(
-                name,
-                value,
-                "s",
-                seconds,
-                seconds / value,
-                f"ratio >= {wanted:,}",
-                seconds / value >= wanted,
+            entry(
+                name, value, "s", seconds, f"ratio >= {wanted:,}", seconds / value >= wanted,
                 "All effects on: memory, ballooning, leak, friction, motor limits, lags, noise,"
                 f" converter, spread. Baseline: real time. Median of {repetitions}"
                 f" ({spread(times[:, column])} a run).",
             )
-        )
+        )  # fmt: skip
     return found

@@ -3,38 +3,28 @@
 import json
 import sys
 from dataclasses import fields
+from importlib import import_module
 
 import numpy as np
 import pytest
 
-from tests.bench import (
-    board,
-    controller,
-    design,
-    elastica,
-    elastica_runs,
-    grippers,
-    growth,
-    kernel_regression,
-    pad_reading,
-    rig,
-    step_responses,
-)
+from tests.bench import elastica, elastica_runs, growth, rig
+from tests.bench.__main__ import SUBJECTS
 from tests.bench.entry import Entry, interleaved, table, write
 from tests.bench.fingers import ALLOWED, batch, choose_step, plain, responses
 
 SMALL = {
-    step_responses: {"runs": 4, "plain_runs": 2, "checked": 2, "repetitions": 1},
-    rig: {"seconds": 0.25, "runs": 3, "repetitions": 1},
-    growth: {"runs": (2, 4, 8), "repetitions": 1},
-    controller: {"count": 50, "repetitions": 2},
+    "step_responses": {"runs": 4, "plain_runs": 2, "checked": 2, "repetitions": 1},
+    "rig": {"seconds": 0.25, "runs": 3, "repetitions": 1},
+    "growth": {"runs": (2, 4, 8), "repetitions": 1},
+    "controller": {"count": 50, "repetitions": 2},
     # Ours alone: PyElastica would have to be fetched.
-    design: {"starts": 2, "rivals": ("SLSQP",)},
-    elastica: {"elements": (), "runs": 3, "repetitions": 1},
-    kernel_regression: {"queries": 500, "other": 20, "repetitions": 1, "plain": 50},
-    board: {"seconds": 0.5, "count": 5, "stops": 2},
-    pad_reading: {"count": 50, "plain": 5, "repetitions": 1},
-    grippers: {"pairs": 4, "plain_pairs": 1, "growth": (2, 4, 8), "repetitions": 1},
+    "design": {"starts": 2, "rivals": ("SLSQP",)},
+    "elastica": {"elements": (), "runs": 3, "repetitions": 1},
+    "kernel_regression": {"queries": 500, "other": 20, "repetitions": 1, "plain": 50},
+    "board": {"seconds": 0.5, "count": 5, "stops": 2},
+    "pad_reading": {"count": 50, "plain": 5, "repetitions": 1},
+    "grippers": {"pairs": 4, "plain_pairs": 1, "growth": (2, 4, 8), "repetitions": 1},
 }
 KINDS = {
     "name": str,
@@ -48,9 +38,9 @@ KINDS = {
 }
 
 
-@pytest.mark.parametrize("subject", SMALL, ids=lambda subject: subject.__name__)
+@pytest.mark.parametrize("subject", SUBJECTS)
 def test_subject_gives_entries_that_survive_json(subject, tmp_path):
-    found = subject.entries(**SMALL[subject])
+    found = import_module(f"tests.bench.{subject}").entries(**SMALL[subject])
     write(found, tmp_path / "deep" / "bench.json")
     read = json.loads((tmp_path / "deep" / "bench.json").read_text())
     assert [Entry(**line) for line in read] == found
