@@ -21,11 +21,10 @@ MODULES = (
     *(regulators, pid_gains, step_protocols, step_sweep, finger_count, speed, pushes, facts),
     *(fitting, calibration_table, gripper_calibration_table, pad_calibration_table),
 )
-ALL = (
-    *(module.KEPT for module in MODULES),
-    *fem_results.KEPT.values(),
-    *element_results.KEPT.values(),
-)
+MADE_BY = {module.KEPT: module for module in MODULES}
+MADE_BY |= {
+    made: module for module in (fem_results, element_results) for made in module.KEPT.values()
+}
 
 
 @dataclass(frozen=True)
@@ -90,7 +89,17 @@ def test_other_columns_are_refused(tmp_path):
         TABLE.read(path)
 
 
-@pytest.mark.parametrize("table", ALL, ids=lambda table: table.file)
+@pytest.mark.parametrize("table", MADE_BY, ids=lambda table: table.file)
+def test_kept_file_says_by_which_command_it_is_made(table):
+    file, module = data_file(table.file), MADE_BY[table]
+    public = module in (facts, fitting)
+    command = f"python -m {'softgrip.materials' if public else module.__name__}"
+    assert file.provenance is (Provenance.PUBLIC if public else Provenance.SIMULATED)
+    assert file.source == table.source
+    assert file.source.endswith(f": {command}") if public else file.source == command
+
+
+@pytest.mark.parametrize("table", MADE_BY, ids=lambda table: table.file)
 def test_kept_file_written_from_its_own_rows_is_the_same_to_the_byte(table, tmp_path):
     path = replace(table, make=table.read).write(tmp_path / "again.csv")
     assert path.read_bytes() == data_file(table.file).path.read_bytes()

@@ -14,19 +14,10 @@ from softgrip.control.step_metrics import final_value
 from softgrip.dynamics.second_order import SecondOrder, full_state_space, state_space, step_response
 from softgrip.errors import InvalidInputError
 from softgrip.units import DEG
+from tests.control.test_loop import Constant
 
 FINGER = SecondOrder(1.65, 0.86, 1.5e-4)
 PUMP_GAIN = 978.0
-
-
-class _Fixed:
-    """A controller that asks for one pressure."""
-
-    def __init__(self, pressure):
-        self.pressure = pressure
-
-    def update(self, reference, measurement):
-        return np.asarray(self.pressure)
 
 
 def test_unit_step_is_the_closed_form_response():
@@ -78,13 +69,13 @@ def test_design_knows_nothing_of_the_rig_but_its_model():
 
 @given(share=st.floats(-1, 1))
 def test_share_of_set_pressure_becomes_share_of_set_speed(share):
-    speed = PressureAsSpeed(_Fixed(share * SET_PRESSURE)).update(0.0, 0.0)
+    speed = PressureAsSpeed(Constant(share * SET_PRESSURE)).update(0.0, 0.0)
     assert float(speed) == pytest.approx(share * SPEED_LIMIT, abs=1e-12)
 
 
 @given(pressure=st.floats(-60e3, 60e3))
 def test_plunger_comes_to_the_pressure_and_stops(pressure):
-    pump = PressureByPlunger(_Fixed(pressure), PUMP_GAIN)
+    pump = PressureByPlunger(Constant(pressure), PUMP_GAIN)
     # At 5 rev/s a pressure of 60 kPa takes 60e3 / (978 * 31.4) = 2 s, or 79 periods.
     speeds = [float(pump.update(0.0, 0.0)) for _ in range(90)]
     assert PUMP_GAIN * PERIOD * sum(speeds) == pytest.approx(pressure, abs=1e-6)
@@ -106,6 +97,6 @@ def test_plunger_in_place_is_the_actuator_loop_where_the_motor_is_fast():
 @pytest.mark.parametrize("bad", [0.0, -1.0, np.nan])
 def test_pressure_commands_refuse_what_is_not_above_zero(bad):
     with pytest.raises(InvalidInputError):
-        PressureAsSpeed(_Fixed(0.0), set_speed=bad)
+        PressureAsSpeed(Constant(0.0), set_speed=bad)
     with pytest.raises(InvalidInputError):
-        PressureByPlunger(_Fixed(0.0), bad)
+        PressureByPlunger(Constant(0.0), bad)

@@ -18,6 +18,7 @@ from softgrip.dynamics.ludwick import (
     step_responses,
 )
 from softgrip.errors import InvalidInputError
+from tests.bench.fingers import batch, plain
 
 SIZES = {"width": 0.030, "height": 0.024}
 powers = st.floats(1.0, 3.0)
@@ -97,38 +98,21 @@ def test_power_one_gives_the_closed_second_order_response():
     np.testing.assert_allclose(found, true, atol=1e-6)
 
 
-def fingers(runs):
-    rng = np.random.default_rng(0)
-    n = rng.uniform(1.5, 2.5, runs)
-    stiffness = 8.18 / n * rng.uniform(0.8, 1.2, runs)
-    finger = LudwickFinger(np.ones(runs), 4 * rng.uniform(0.8, 1.2, runs), stiffness, n)
-    return finger, stiffness * rng.uniform(0.3, 1.6, runs) ** n
-
-
 def test_step_responses_agree_with_a_tight_reference_to_a_millionth():
     """Eq. (5.16) as it stands, by SciPy's integrator of eighth order."""
-    finger, force = fingers(12)
-    times = np.linspace(0, 5, 5001)
-    ((_, found),) = step_responses(finger, force, times, 0.025, runs=12)
-    for i in range(12):
-        m, c, k, n = (np.asarray(v)[i] for v in vars(finger).values())
-
-        def plain(_t, y, m=m, c=c, k=k, n=n, f=force[i]):
-            return [y[1], (f - c * y[1] - k * y[0] * abs(y[0]) ** (n - 1)) / m]
-
-        true = solve_ivp(
-            plain, (0, 5), [0, 0], method="DOP853", rtol=1e-11, atol=1e-12, t_eval=times
-        )
-        assert abs(found[:, i] - true.y[0]).max() < 1e-6
+    given = batch(12)
+    ((_, found),) = step_responses(given.finger, given.force, given.times, 0.025, runs=12)
+    true = plain(given, method="DOP853", rtol=1e-11, atol=1e-12)
+    assert abs(found - true).max() < 1e-6
 
 
 def test_parts_of_a_batch_are_the_batch():
-    finger, force = fingers(10)
-    times = np.linspace(0, 2, 101)
-    ((_, whole),) = step_responses(finger, force, times, 0.02, runs=10)
+    given, times = batch(10), np.linspace(0, 2, 101)
+    ((_, whole),) = step_responses(given.finger, given.force, times, 0.02, runs=10)
     whole = whole.copy()
     seen = 0
-    for part, angle in step_responses(finger, force, times, 0.02, runs=10, limit=3 * 8 * 101):
+    parts = step_responses(given.finger, given.force, times, 0.02, runs=10, limit=3 * 8 * 101)
+    for part, angle in parts:
         assert angle.shape == (101, part.stop - part.start)
         np.testing.assert_allclose(angle, whole[:, part], rtol=1e-12, atol=1e-15)
         seen += angle.shape[1]
@@ -153,11 +137,11 @@ def test_agrees_with_an_independent_solver(n):
     m, c, k = 0.04, 0.14, 0.1
     found = pressure_response(LudwickFinger(m, c, k, n), TIME, PRESSURE, force_per_pressure=F)
 
-    def plain(t, y):
+    def law(t, y):
         return [y[1], (F * np.interp(t, TIME, PRESSURE) - c * y[1] - k * abs(y[0]) ** n) / m]
 
     # Its step must see every kink of the pressure.
-    true = solve_ivp(plain, (0, 6), [0, 0], "DOP853", TIME, rtol=1e-9, atol=1e-11, max_step=0.025)
+    true = solve_ivp(law, (0, 6), [0, 0], "DOP853", TIME, rtol=1e-9, atol=1e-11, max_step=0.025)
     np.testing.assert_allclose(found, true.y[0], atol=2e-6)
 
 

@@ -123,11 +123,7 @@ def test_finger_behind_its_pump_moves_as_the_two_equations_say():
 
     solved = solve_ivp(motion, (0, 5), np.zeros(3), t_eval=time, rtol=1e-10, atol=1e-12)
     finger = FingerDynamics.from_physics(
-        mass=mass,
-        damping=damping,
-        stiffness=stiffness,
-        torque_per_pressure=torque,
-        pump_gain=pump,
+        mass=mass, damping=damping, stiffness=stiffness, torque_per_pressure=torque, pump_gain=pump
     )
     found = control.forced_response(finger_state_space(finger), time, np.full(51, 2.0)).outputs
     assert found == pytest.approx(solved.y[1], abs=1e-8)

@@ -68,8 +68,7 @@ def test_poles_with_other_fingers_are_the_roots_of_the_loops_polynomial():
         for k, (f, (_, _, gain)) in enumerate(zip(PRINTED.fingers, others, strict=True))
     ]
     loop = np.polyadd(
-        np.polymul(np.polysub(low, top), np.polymul(*real)),
-        np.polymul(top, np.polyadd(*asked)),
+        np.polymul(np.polysub(low, top), np.polymul(*real)), np.polymul(top, np.polyadd(*asked))
     )
     fingers = Gripper(tuple(FingerDynamics(*numbers) for numbers in others))
     found = continuous_stability(PRINTED, fingers, MEAN, H).poles

@@ -17,12 +17,7 @@ from softgrip.dynamics.second_order import SecondOrder, response
 from softgrip.errors import DataFileError
 from softgrip.gripper.plant import FingerDynamics
 from softgrip.gripper.synchronization import synchronization_error
-from softgrip.logs.fingers import (
-    GripperLogs,
-    identified_gripper,
-    read_runs,
-    run_deviation,
-)
+from softgrip.logs.fingers import GripperLogs, identified_gripper, read_runs, run_deviation
 from softgrip.logs.reader import read_log
 from softgrip.provenance import data_file, data_folder
 from softgrip.simulator import gripper_calibration_table

@@ -176,10 +176,7 @@ def test_value_and_interval_by_another_way():
 
 def test_extrapolation_is_named():
     assert predict_power(2e6, 15.0, 2.5e6).extrapolates == ("young_modulus",)
-    assert predict_power(0.3e6, 100.0, 9e6).extrapolates == (
-        "mixed_viscosity",
-        "tensile_strength",
-    )
+    assert predict_power(0.3e6, 100.0, 9e6).extrapolates == ("mixed_viscosity", "tensile_strength")
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, float("nan"), float("inf")])

@@ -145,10 +145,7 @@ def test_innovations_and_errors_are_as_large_as_the_filter_says(monte_carlo):
     assert inside.mean() > 0.8  # 0.95 is expected; the samples of a run are not independent
 
 
-@pytest.mark.parametrize(
-    "wrong",
-    [{"sensor": 75.0}, {"sensor": 300.0}, {"elastance_step": 0.0}],
-)
+@pytest.mark.parametrize("wrong", [{"sensor": 75.0}, {"sensor": 300.0}, {"elastance_step": 0.0}])
 def test_wrong_noise_levels_are_seen(monte_carlo, wrong):
     """The test above can fail: levels wrong by a factor 2, or left out, leave the bounds."""
     flow, angle, states, measured = monte_carlo

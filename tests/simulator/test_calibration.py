@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from softgrip.provenance import Provenance, data_file
+from softgrip.provenance import data_file
 from softgrip.simulator import calibration, calibration_table
 from softgrip.simulator.calibration import OPERATING_ANGLE, design_1, design_3, small_signal_poles
 from softgrip.simulator.laws import settled_torque
@@ -24,11 +24,6 @@ def test_file_is_what_the_code_gives():
             assert getattr(old, name) == pytest.approx(
                 getattr(new, name), rel=1e-5, abs=1e-8, nan_ok=True
             )
-
-
-def test_file_says_that_it_is_simulated():
-    file = data_file(calibration_table.FILE)
-    assert (file.provenance, file.source) == (Provenance.SIMULATED, calibration_table.KEPT.source)
 
 
 def test_written_file_is_the_kept_one(tmp_path):

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from softgrip.errors import InvalidInputError, UnknownNameError
-from softgrip.provenance import Provenance, data_file
 from softgrip.tactile.element import STATED_MODULUS, TABLE_MODULUS, Element, compliance
 from softgrip.tactile.element_fem import solve
 from softgrip.tactile.element_results import (
@@ -18,13 +17,6 @@ from softgrip.tactile.element_results import (
 )
 from softgrip.tactile.element_table import ASSUMED, table_2_1
 from softgrip.units import MM
-
-
-@pytest.mark.parametrize("table", TABLES)
-def test_files_say_where_they_come_from(table):
-    found = data_file(f"tactile/element_{table}.csv")
-    assert found.provenance is Provenance.SIMULATED
-    assert found.source == "python -m softgrip.tactile.element_results"
 
 
 @pytest.mark.parametrize("table", TABLES)

@@ -3,13 +3,7 @@
 import numpy as np
 import pytest
 
-from softgrip.tactile.element import (
-    STATED_MODULUS,
-    TABLE_MODULUS,
-    Element,
-    compliance,
-    shortening,
-)
+from softgrip.tactile.element import STATED_MODULUS, TABLE_MODULUS, Element, compliance, shortening
 from softgrip.tactile.element_table import ASSUMED, FORCES, table_2_1
 from softgrip.tactile.hertz import hertz_approach
 from softgrip.units import MM, MPa

@@ -8,11 +8,7 @@ from hypothesis import strategies as st
 from softgrip.control.loop import run_loop
 from softgrip.control.pid import PERIOD, Gains
 from softgrip.errors import InvalidInputError
-from softgrip.tactile.force_control import (
-    ForceController,
-    largest_loop_gain,
-    tuned_gains,
-)
+from softgrip.tactile.force_control import ForceController, largest_loop_gain, tuned_gains
 
 LAG, STIFFNESS = 0.03, 250.0
 
@@ -105,9 +101,6 @@ def test_what_is_no_pd_controller_is_refused():
 
 @pytest.mark.parametrize("bad", [0.0, -1.0])
 def test_arguments_that_cannot_be_are_refused(bad):
-    for call in (
-        lambda: tuned_gains(bad, 0.1, 0.1),
-        lambda: largest_loop_gain(bad),
-    ):
+    for call in (lambda: tuned_gains(bad, 0.1, 0.1), lambda: largest_loop_gain(bad)):
         with pytest.raises(InvalidInputError):
             call()

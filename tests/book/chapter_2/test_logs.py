@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from book.chapter_2.logs import PAD_TESTS, TRAINING, contacts, errors
-from book.companion.simulated_logs import COMMAND, make
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.logs.contacts import read_contacts
 from softgrip.logs.reader import read_log
@@ -17,13 +16,6 @@ from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.units import DEG, MM
 
 OBJECTS = data_file("simulated/pad-objects.csv").path
-
-
-@pytest.mark.parametrize("name", PAD_TESTS)
-def test_log_is_made_again_bit_for_bit(name, tmp_path):
-    kept = data_file(f"simulated/{name}.csv")
-    assert make(name, tmp_path).read_bytes() == kept.path.read_bytes()
-    assert (kept.provenance, kept.source) == (Provenance.SIMULATED, f"{COMMAND} {name}")
 
 
 @pytest.mark.parametrize("name", PAD_TESTS)

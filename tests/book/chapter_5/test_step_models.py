@@ -96,12 +96,6 @@ def test_one_model_for_more_steps_fares_no_better():
         assert (np.diff(worst) > 0).all()
 
 
-def test_sweep_and_protocols_say_that_they_are_simulated():
-    for module in (step_sweep, step_test_protocols):
-        file = data_file(module.KEPT.file)
-        assert (str(file.provenance), file.source) == ("simulated", f"python -m {module.__name__}")
-
-
 def test_other_logs_are_fitted_to_their_first_half():
     paths = [data_file(name).path for name in FINGERS["Design 1"].paths(90)]
     tests, models = compare("Design 1", (paths[:3], paths[3:]))

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from book.chapter_4.logs import PUSHES
+from book.chapter_2.logs import PAD_TESTS
+from book.chapter_3.logs import LOGS as REGULATED
+from book.chapter_4.logs import CONTROLLED, PUSHES
 from book.chapter_5.logs import STEPS
 from book.companion.simulated_logs import COMMAND, main, make
 from softgrip.errors import UnknownNameError
@@ -16,7 +18,7 @@ from softgrip.units import ML, MPa
 NAMES = [*PUSHES, *STEPS]
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [*NAMES, *CONTROLLED, *REGULATED, *PAD_TESTS])
 def test_log_is_made_again_bit_for_bit(name, tmp_path):
     kept = data_file(f"simulated/{name}.csv")
     assert make(name, tmp_path).read_bytes() == kept.path.read_bytes()
