@@ -189,16 +189,11 @@ def test_shape_runs_from_the_base_to_the_tip():
 
 
 @pytest.mark.parametrize(
-    "load", [{"force": -1.0}, {"moment": np.inf}, {"force": 1e9}], ids=["below", "inf", "huge"]
-)
-def test_loads_out_of_range_are_refused(load):
-    with pytest.raises(InvalidInputError, match="expected"):
-        bend(DESIGN_1, **load)
-
-
-@pytest.mark.parametrize(
     "call",
     [
+        lambda: bend(DESIGN_1, force=-1.0),
+        lambda: bend(DESIGN_1, moment=np.inf),
+        lambda: bend(DESIGN_1, force=1e9),
         lambda: load_number(np.pi / 2, 1.0),
         lambda: load_number(3.2, 1.0, follower=True),
         lambda: load_number(-0.1, 1.0),
@@ -208,6 +203,6 @@ def test_loads_out_of_range_are_refused(load):
         lambda: angle_limit(np.inf, 1.0),
     ],
 )
-def test_angles_powers_and_errors_out_of_range_are_refused(call):
-    with pytest.raises(InvalidInputError):
+def test_loads_angles_powers_and_errors_out_of_range_are_refused(call):
+    with pytest.raises(InvalidInputError, match="expected"):
         call()

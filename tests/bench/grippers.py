@@ -2,11 +2,10 @@
 
 from collections.abc import Sequence
 
-import control
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from softgrip.gripper.gripper_batch import GripperBatch, Trial, draw_grippers
+from softgrip.gripper.gripper_batch import Trial, draw_grippers
 from softgrip.gripper.internal_model import (
     ControllerMatrices,
     InternalModelController,
@@ -14,11 +13,12 @@ from softgrip.gripper.internal_model import (
 )
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.monte_carlo import Keep, Outcome, in_parts, joined, simulate
-from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, state_space
+from softgrip.gripper.plant import PRINTED
 from softgrip.gripper.reach import project
 from softgrip.gripper.shaping_filter import SLOW, filter_state_space
 from tests.bench.entry import Entry, entry, interleaved, peak_memory, spread
 from tests.bench.growth import growth_entry, listed
+from tests.gripper.period_by_period import forced, gripper_of
 
 TRIAL = Trial(tuple(project(PRINTED, [np.pi / 4] * 2).reached.tolist()), limit=3.0)
 """Within 3 the printed loop for 2/s is cut off, as a motor would."""
@@ -44,27 +44,13 @@ def ours(pairs: int, keep: Keep = "metrics") -> Outcome | None:
 def baseline(pairs: int) -> np.ndarray:
     """Return the angles of the first pairs, a call of `forced_response` a pair and period."""
     batch = draw_grippers(PRINTED, pairs, seed=1)
-    controller = InternalModelController(
-        PRINTED, TRIAL.target, mean_inverse(PRINTED), filter_state_space(*SLOW), limit=TRIAL.limit
-    )
-    return np.stack([_pair(batch, number, controller) for number in range(pairs)])
-
-
-def _pair(batch: GripperBatch, number: int, controller: InternalModelController) -> np.ndarray:
-    numbers = (batch.damping[number], batch.stiffness[number], batch.gain[number])
-    fingers = (FingerDynamics(*map(float, each)) for each in zip(*numbers, strict=True))
-    plant = state_space(Gripper(tuple(fingers)))
-    controller.reset()
-    time = np.linspace(0, TRIAL.period, TRIAL.points_a_period + 1)
-    state, angles = np.zeros(plant.nstates), [np.zeros((batch.fingers, 1))]
-    for _ in range(TRIAL.periods):
-        command = float(controller.update(angles[-1][:, -1]))
-        found = control.forced_response(
-            plant, time, np.full(time.size, command), state, squeeze=False
-        )
-        state = found.states[:, -1]
-        angles.append(found.outputs[:, 1:])
-    return np.concatenate(angles, axis=1)
+    made = (mean_inverse(PRINTED), filter_state_space(*SLOW))
+    controller = InternalModelController(PRINTED, TRIAL.target, *made, limit=TRIAL.limit)
+    found = []
+    for number in range(pairs):
+        controller.reset()
+        found.append(forced(gripper_of(batch, number), TRIAL, controller)[0])
+    return np.stack(found)
 
 
 def entries(

@@ -20,9 +20,10 @@ from softgrip.gripper.gripper_batch import GripperBatch, Trial, draw_grippers
 from softgrip.gripper.internal_model import InternalModelController, controller_matrices
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.monte_carlo import in_parts, joined, simulate, study
-from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, finger_state_space, state_space
+from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, finger_state_space
 from softgrip.gripper.sampled_plant import held_motion
 from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
+from tests.gripper.period_by_period import forced, gripper_of
 
 TARGET = (0.714, 0.842)
 FILTERS = {"fast": filter_state_space(*FAST), "slow": filter_state_space(*SLOW)}
@@ -30,29 +31,6 @@ LOOPS = {
     name: controller_matrices(PRINTED, mean_inverse(PRINTED), H) for name, H in FILTERS.items()
 }
 POSITIVE = st.floats(0.3, 12)
-
-
-def forced(batch, number, trial, controller):
-    """Return angles and commands of one gripper from `forced_response`, a period at a time."""
-    fingers = [
-        FingerDynamics(*(float(a[number, k]) for a in (batch.damping, batch.stiffness, batch.gain)))
-        for k in range(batch.fingers)
-    ]
-    plant = state_space(Gripper(tuple(fingers)))
-    noise = sensor_noise(batch, trial)[number]
-    state, time = np.zeros(plant.nstates), np.linspace(0, trial.period, trial.points_a_period + 1)
-    angles, commands = [np.zeros((len(fingers), 1))], []
-    late = [0.0] * trial.delay_samples
-    for k in range(trial.periods):
-        own = float(controller.update(angles[-1][:, -1] + noise[k]))
-        late.append(min(max(own, -trial.limit), trial.limit))
-        commands.append(late.pop(0))
-        found = control.forced_response(
-            plant, time, np.full(time.size, commands[-1]), state, squeeze=False
-        )
-        state = found.states[:, -1]
-        angles.append(found.outputs[:, 1:])
-    return np.concatenate(angles, axis=1), np.array(commands)
 
 
 def assert_same(found, true):
@@ -78,7 +56,8 @@ def test_trajectories_are_those_of_forced_response(name, trial):
         loop = InternalModelController(
             PRINTED, TARGET, mean_inverse(PRINTED), FILTERS[name], limit=trial.limit
         )
-        angles, commands = forced(batch, number, trial, loop)
+        noise = sensor_noise(batch, trial)[number]
+        angles, commands = forced(gripper_of(batch, number), trial, loop, noise)
         np.testing.assert_allclose(found.angles[number], angles, rtol=0, atol=1e-10)
         np.testing.assert_allclose(found.commands[number], commands, rtol=0, atol=1e-9)
     assert (found.peak_command <= trial.limit).all()
@@ -88,7 +67,7 @@ def test_a_model_that_does_not_know_the_limit_is_the_command_cut_outside():
     trial = Trial(TARGET, limit=1.0)
     batch = draw_grippers(PRINTED, 1, seed=4)
     loop = InternalModelController(PRINTED, TARGET, mean_inverse(PRINTED), FILTERS["fast"])
-    angles, commands = forced(batch, 0, trial, loop)
+    angles, commands = forced(gripper_of(batch, 0), trial, loop)
     found = simulate(batch, unaware(LOOPS["fast"]), trial, keep="trajectories")
     np.testing.assert_allclose(found.angles[0], angles, rtol=0, atol=1e-10)
     assert np.abs(commands).max() == 1.0

@@ -85,6 +85,10 @@ def test_sharp_tops_feel_any_force():
         (lambda: least_force(Element("pyramid"), 0.0), "resistance_change"),
         (lambda: least_force(Element("pyramid"), 6e5), "up to 500000 Ohm"),
         (lambda: relative_compliance("pyramid", 0.5, "weight"), "equal: expected one of"),
+        (lambda: resistance(-1e-3), "shortening: expected m, >= 0"),
+        (lambda: resistance(np.array([np.nan])), "shortening"),
+        (lambda: resistance(0.0, height=0.0), "height"),
+        (lambda: resistance(0.0, ceiling=1.0), "ceiling"),
     ],
 )
 def test_bad_input_is_refused(call, message):
@@ -111,17 +115,3 @@ def test_rises_and_stays_in_range(shortening):
     assert (np.diff(found) >= 0).all()
     assert (found >= AT_REST).all()
     assert (found <= CEILING * (1 + 1e-12)).all()
-
-
-@pytest.mark.parametrize(
-    ("given_", "message"),
-    [
-        ({"shortening": -1e-3}, "shortening: expected m, >= 0"),
-        ({"shortening": np.array([np.nan])}, "shortening"),
-        ({"shortening": 0.0, "height": 0.0}, "height"),
-        ({"shortening": 0.0, "ceiling": 1.0}, "ceiling"),
-    ],
-)
-def test_resistance_beyond_its_range_is_refused(given_, message):
-    with pytest.raises(InvalidInputError, match=message):
-        resistance(**given_)
