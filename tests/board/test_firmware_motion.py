@@ -126,25 +126,25 @@ def test_homing_finds_the_switch(position):
     assert (way[0] > 0) == (position <= 0)
 
 
-def test_a_switch_that_never_opens_is_not_believed():
+def homing_with(switch, seconds):
     found = host(position=600)
-    found.board.set_switch(Switch.BROKEN)
+    found.board.set_switch(switch)
     found.greet()
     assert found.ask(HOME) is None
-    found.run(2.0)
+    found.run(seconds)
     assert found.flags & Flag.SWITCH_FAULT
+    return found
+
+
+def test_a_switch_that_never_opens_is_not_believed():
+    found = homing_with(Switch.BROKEN, 2.0)
     assert not found.flags & Flag.HOMED
     assert found.board.position <= 600 + 400
     assert found.ask(SETPOINT, speed=SPEED_SCALE) == Reason.NOT_HOMED
 
 
 def test_a_switch_that_never_closes_ends_the_search():
-    found = host(position=600)
-    found.board.set_switch(Switch.SHORTED)
-    found.greet()
-    assert found.ask(HOME) is None
-    found.run(33.0)  # the longest stroke and a little, at 400 step/s
-    assert found.flags & Flag.SWITCH_FAULT
+    found = homing_with(Switch.SHORTED, 33.0)  # the longest stroke and a little, at 400 step/s
     assert not found.flags & (Flag.HOMED | Flag.HOMING)
     assert found.ask(HOME) == Reason.SENSOR_FAULT
 

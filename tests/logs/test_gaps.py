@@ -23,7 +23,7 @@ from softgrip.rig.record import record
 from softgrip.rig.replay import Replay
 from softgrip.tactile.drift import DRIFT_WEIGHTS
 from softgrip.units import GRAM_FORCE
-from tests.rig.test_check import checked
+from tests.rig.test_check import checked, lose
 
 FOLDER = data_folder() / "simulated"
 PUSH, STAIRCASE, STEP = FOLDER / "push-a.csv", FOLDER / "staircase.csv", FOLDER / "lqr-fast.csv"
@@ -131,14 +131,7 @@ def test_check_names_what_is_missing(path, stub, capsys):
     without(path, FOLDER / "step-60-1.csv", range(40, 45))
     assert main(["check", "--port", f"replay:{path}"]) == 1
     assert "FAIL  log: 5 rows missing between 1 and 1.15 s" in capsys.readouterr().out
-    sample, count = stub.rig.advance, [0]
-
-    def dropping(*arguments):
-        count[0] += 1
-        stub.swallow = 3 if count[0] == 40 else stub.swallow
-        return sample(*arguments)
-
-    stub.rig.advance = dropping
+    lose(stub, 3)
     code, text = checked(stub)
     assert code == 1
     assert "FAIL  samples: 3 rows missing between" in text
@@ -147,14 +140,7 @@ def test_check_names_what_is_missing(path, stub, capsys):
 def test_a_drivers_log_with_lost_telemetry_names_the_place(path, stub):
     with Board(stub) as rig:
         rig.home()
-        advance, count = rig.advance, [0]
-
-        def losing(command):
-            count[0] += 1
-            stub.swallow = 5 if count[0] == 20 else stub.swallow
-            return advance(command)
-
-        rig.advance = losing
+        lose(stub, 5)
         record(rig, np.full(400, 5.0), 2.0, path)
     log = read_log(path)
     (at,) = (time for time, words in log.events if "telemetry lost: 5" in words)

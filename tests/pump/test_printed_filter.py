@@ -27,6 +27,13 @@ def angles(n, seed=0):
     return np.linspace(0, 1.2, n) + rng.normal(0, LEVELS["sensor"], n)
 
 
+def joint(kalman, samples):
+    """Return the oracle of a filter as it stands, which a run of it moves on."""
+    F, b = np.tile(kalman.F, (samples - 1, 1, 1)), np.zeros((samples - 1, 2))
+    start = kalman.x[:, 0].copy(), kalman.P.copy()
+    return JointGaussian(F, b, kalman.H, kalman.Q.copy(), kalman.R, *start)
+
+
 @pytest.mark.parametrize("samples", [2, 10, 400])
 def test_printed_matrices_have_rank_one_however_long_the_record(samples):
     """Eq. (4.10): its matrices have no way from the capacity to what is measured."""
@@ -66,9 +73,7 @@ def test_filter_agrees_with_the_joint_gaussian():
     """Eq. (4.8) and (4.9) written out for all samples, and conditioned at once."""
     measured = angles(8)
     kalman = printed_filter(K, **LEVELS)
-    F, b = np.tile(kalman.F, (7, 1, 1)), np.zeros((7, 2))
-    args = (kalman.H, kalman.Q.copy(), kalman.R, kalman.x[:, 0].copy(), kalman.P.copy())
-    oracle = JointGaussian(F, b, *args)
+    oracle = joint(kalman, 8)
     states, covariances = run_printed(kalman, measured)
     for k in range(8):
         mean, covariance = oracle.state(k, measured[: k + 1, None])
@@ -84,9 +89,7 @@ def test_filter_agrees_with_the_joint_gaussian():
 def test_estimate_is_the_guess_plus_the_sum_of_the_smoothed_angles():
     measured = angles(12)
     kalman = printed_filter(K, **LEVELS)
-    F, b = np.tile(kalman.F, (11, 1, 1)), np.zeros((11, 2))
-    args = (kalman.H, kalman.Q.copy(), kalman.R, kalman.x[:, 0].copy(), kalman.P.copy())
-    oracle = JointGaussian(F, b, *args)
+    oracle = joint(kalman, 12)
     smoothed = [oracle.state(k, measured[:, None])[0][1] for k in range(12)]
     states, _ = run_printed(kalman, measured)
     expected = open_loop_capacity(smoothed, K, LEVELS["capacity"])[-1]

@@ -17,6 +17,18 @@ def checked(board, **options):
     return code, "\n".join(lines)
 
 
+def lose(stub, frames):
+    """Let a stub lose so many frames of telemetry at its fortieth sample."""
+    sample, count = stub.rig.advance, [0]
+
+    def dropping(*arguments):
+        count[0] += 1
+        stub.swallow = frames if count[0] == 40 else stub.swallow
+        return sample(*arguments)
+
+    stub.rig.advance = dropping
+
+
 @pytest.mark.parametrize("name", ["simulated", "simulated:gripper"])
 def test_simulated_rigs_are_good(name, capsys):
     assert main(["check", "--port", name]) == 0
@@ -63,14 +75,7 @@ def test_a_finger_that_is_not_there_is_seen(stub):
 
 
 def test_lost_telemetry_is_seen(stub):
-    sample, count = stub.rig.advance, [0]
-
-    def dropping(*arguments):
-        count[0] += 1
-        stub.swallow = 1 if count[0] == 40 else 0
-        return sample(*arguments)
-
-    stub.rig.advance = dropping
+    lose(stub, 1)
     code, text = checked(stub)
     assert code == 1
     assert "FAIL  telemetry" in text
