@@ -10,7 +10,7 @@ import pytest
 
 from tests.bench import elastica, elastica_runs, growth, rig
 from tests.bench.__main__ import SUBJECTS
-from tests.bench.entry import Entry, interleaved, table, write
+from tests.bench.entry import Entry, entry, interleaved, table, write
 from tests.bench.fingers import ALLOWED, batch, choose_step, plain, responses
 
 SMALL = {
@@ -48,11 +48,16 @@ def test_subject_gives_entries_that_survive_json(subject, tmp_path):
         assert list(line) == list(KINDS)
         assert all(isinstance(line[key], kind) for key, kind in KINDS.items())
         assert np.isfinite([line["value"], line["ratio"] or 0.0]).all()
-    assert all(entry.name in table(found) for entry in found)
+    assert all(one.name in table(found) for one in found)
 
 
 def test_schema_is_that_of_the_entry():
     assert [field.name for field in fields(Entry)] == list(KINDS)
+
+
+def test_ratio_is_that_of_baseline_and_value():
+    ratios = [entry("a", 2.0, "s", baseline, "", None, "").ratio for baseline in (6.0, None)]
+    assert ratios == [3.0, None]
 
 
 def test_both_sides_solve_the_same_equation():
@@ -125,4 +130,4 @@ def test_without_pyelastica_ours_is_measured_alone_and_the_reason_is_said(monkey
     monkeypatch.setattr(elastica_runs, "find_uv_bin", lambda: sys.executable)
     found = elastica.entries(elements=(5,), runs=2, repetitions=1)
     assert len(found) == 3
-    assert all("could not be run: " in entry.note and entry.ratio is None for entry in found)
+    assert all("could not be run: " in one.note and one.ratio is None for one in found)
