@@ -7,7 +7,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from book.chapter_2.numbers import least_force_felt, read_threshold
 from book.companion.exhibit import figure, table
 from book.companion.style import BLUE, GREEN, GREY, ORANGE, PRINTED, WIDTH, sheet
 from softgrip.actuator.elasticity import Elastic
@@ -34,6 +33,7 @@ from softgrip.tactile.element_results import (
 from softgrip.tactile.element_sensitivity import (
     AT_REST,
     CEILING,
+    least_force,
     relative_compliance,
     resistance_under,
 )
@@ -54,7 +54,8 @@ PRINTED_LEAST = {"cylinder": 0.1, "hemisphere": 0.02, "pyramid": 0.01}
 def figure_2_3() -> Figure:
     """Draw resistance over load, and where it can be read."""
     drawn, (upper, lower) = sheet(6.0, 2, 1)
-    threshold = read_threshold()
+    # The amplifier's gain is not printed: the pyramid anchors what change of resistance is felt.
+    threshold = float(resistance_under(ASSUMED["pyramid"], PRINTED_LEAST["pyramid"])) - AT_REST
     for shape, element in ASSUMED.items():
         look: dict[str, Any] = {"color": COLOURS[shape], "ls": DASHES[shape]}
         load = np.linspace(0, 0.4, 201)
@@ -63,7 +64,7 @@ def figure_2_3() -> Figure:
         change = resistance_under(element, load) - AT_REST
         rising = change < CEILING - AT_REST
         lower.plot(load[rising], change[rising] / 1e3, **look, label=shape)
-        lower.plot([least_force_felt(shape)], [threshold / 1e3], "s", ms=5,
+        lower.plot([least_force(element, threshold)], [threshold / 1e3], "s", ms=5,
                    color=COLOURS[shape], label=f"{shape}, least")  # fmt: skip
         lower.plot([PRINTED_LEAST[shape]], [threshold / 1e3], "o", ms=11, mfc="none",
                    color=COLOURS[shape], label=f"{shape}, printed")  # fmt: skip

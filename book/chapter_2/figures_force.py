@@ -16,7 +16,6 @@ from book.chapter_2.forces import (
     weight_bandwidth,
     weight_points,
 )
-from book.chapter_2.numbers import mean_accuracy, mean_deviation
 from book.companion.exhibit import figure, table
 from book.companion.style import BLUE, GREEN, GREY, MEASURED, ORANGE, SKY, VERMILION, sheet
 from softgrip.arrays import Floats
@@ -171,15 +170,16 @@ def table_2_h() -> pd.DataFrame:
                 "deviation (N)": f"{row.deviation:.4f}",
             }
         )
+    every = table_2_2().values()
     rows.append(
         {
             "object": "mean",
             "true": "",
             "mean, 95 %": "",
             "p of the bias": "",
-            "accuracy of the mean": f"{mean_accuracy():.1f}",
-            "of one": f"{100 * np.mean([r.accuracy_of_one for r in table_2_2().values()]):.1f}",
-            "deviation (N)": f"{mean_deviation():.4f}",
+            "accuracy of the mean": f"{100 * np.mean([r.accuracy for r in every]):.1f}",
+            "of one": f"{100 * np.mean([r.accuracy_of_one for r in every]):.1f}",
+            "deviation (N)": f"{np.mean([r.deviation for r in every]):.4f}",
         }
     )
     return pd.DataFrame(rows)

@@ -16,17 +16,19 @@ from book.chapter_2.grasps import (
     study,
     summary,
 )
-from book.chapter_2.numbers import lift_of_desired, pressed, simulated_lift, true_weight
+from book.chapter_2.numbers import simulated_lift
 from book.companion.exhibit import figure, table
 from book.companion.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, sheet
 from softgrip.provenance import Provenance
 from softgrip.simulator.pad_gripper import GraspGripper
+from softgrip.tactile.force import table_2_2
 from softgrip.tactile.force_control import largest_loop_gain
 from softgrip.tactile.friction import (
     Interval,
     common_friction,
     contact_force,
     holding_probability,
+    lift_force,
     printed_grasps,
 )
 
@@ -116,6 +118,9 @@ def figure_2_j() -> Figure:
 DEVIATION = 0.015
 """Of a measured force, N: Section 2.2."""
 
+WEIGHED = {"egg": "egg", "tofu": "tofu", "carrot": "sliced carrot"}
+"""The row of Table 2.2 for each object; the text calls the carrot sliced, then small."""
+
 
 def _text(interval: Interval | None, digits: int = 2) -> str:
     return (
@@ -134,19 +139,20 @@ def table_2_j() -> pd.DataFrame:
     for name, given in printed_grasps().items():
         contact, lift, weight = (float(s) for s in (given.contact, given.lift, given.weight))
         probable = holding_probability(lift, weight, FRICTION, DEVIATION)
+        true = table_2_2()[WEIGHED[name]].true
         columns[name] = {
             "desired force F_c (N), printed": given.contact,
             "estimated lift force F_est (N), printed": given.lift,
             "weight (N), printed": given.weight,
-            "weight (N), Table 2.2": f"{true_weight(name):.3f}",
+            "weight (N), Table 2.2": f"{true:.3f}",
             "F_est over the printed weight": f"{lift / weight - 1:+.0%}",
-            "F_est over that of Table 2.2": f"{lift / true_weight(name) - 1:+.0%}",
+            "F_est over that of Table 2.2": f"{lift / true - 1:+.0%}",
             "friction, as the numbers stand": f"{lift / (2 * contact):.3f}",
             "friction, as rounding allows": _text(given.friction, 3),
             "friction, common to all": _text(common_friction(), 3),
             "friction that just bears the weight": _text(given.least_friction),
-            "F_l from F_c, friction 1 (N)": f"{lift_of_desired(name, FRICTION):.2f}",
-            "F_m from F_est, friction 1 (N)": f"{pressed(name, FRICTION):.3f}",
+            "F_l from F_c, friction 1 (N)": f"{lift_force(contact, FRICTION):.2f}",
+            "F_m from F_est, friction 1 (N)": f"{contact_force(lift, FRICTION):.3f}",
             "probability to slip (%)": f"{100 * (1 - probable):.2g}",
         }
     found = pd.DataFrame(columns)

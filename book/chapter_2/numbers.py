@@ -1,82 +1,105 @@
 """Recomputation of the numbers printed in Chapter 2."""
 
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 
 import numpy as np
 
 from book.chapter_2.forces import weighed_objects
 from book.chapter_2.grasps import FRICTION, desired_force, study, summary
-from book.chapter_2.kinds import kept, right_on_objects, split_shares
+from book.chapter_2.kinds import kept, split_shares
 from book.chapter_2.logs import OBJECTS, contacts, errors
+from book.companion.relations import mean, nearest_share
 from book.companion.verdict import simulated
-from softgrip.simulator.pad_objects import FOODS
-from softgrip.tactile.contact_kind import bagged_neighbours, nearest_neighbours
+from softgrip.materials import yeoh
+from softgrip.materials.facts import facts
 from softgrip.tactile.element import STATED_MODULUS, Element, Shape, cut_sphere, shortening
-from softgrip.tactile.element_results import fem_deformation
-from softgrip.tactile.element_sensitivity import AT_REST, least_force, resistance_under
+from softgrip.tactile.element_results import fem_deformation, largest_for
+from softgrip.tactile.element_sensitivity import least_force
 from softgrip.tactile.element_table import ASSUMED
-from softgrip.tactile.force import SET, WEIGHTS, table_2_2
-from softgrip.tactile.friction import contact_force, lift_force, printed_grasps
+from softgrip.tactile.force import Weighing
+from softgrip.tactile.friction import contact_force, lift_force
 from softgrip.tactile.hertz import hertz_approach
-from softgrip.tactile.kind_evaluation import accuracy
 from softgrip.units import GRAM_FORCE, MM, MPa
 
 
-def cylinder_by_equation(force: str, modulus: float = 0.125, width: float = 6.0) -> float:
-    """Return the deformation of a cylinder 3 mm high, evenly stressed, mm; width in mm."""
-    return shortening(Element("cylinder", width * MM), _newtons(force), modulus * MPa) / MM
+def secant_modulus(material: str, strain: float, stress: str = "engineering") -> float:
+    """Return stress over strain in the public tensile test, by Yeoh's law, MPa.
 
-
-def hemisphere_by_equation(force: str, modulus: float, cut: float) -> float:
-    """Return the same of a sphere's half, 3 mm in radius and cut flat, mm."""
-    return shortening(cut_sphere(cut), _newtons(force), modulus * MPa) / MM
-
-
-def pyramid_by_equation(force: str, modulus: float, cut: float) -> float:
-    """Return the same of a pyramid, 6 mm wide, 3 mm high and cut flat, mm."""
-    return shortening(Element("pyramid", cut=cut), _newtons(force), modulus * MPa) / MM
-
-
-def hertzian(force: str, modulus: float = 0.125, corrected: bool = False) -> float:
-    """Return Hertz's right side for a radius of 3 mm; corrected, a length in mm.
-
-    As printed, without the exponent 2/3, it is no length: the number then stands for 1e-3 m^1.5.
+    Args:
+        material: As Table 5.1 names it.
+        strain: Engineering strain, > 0.
+        stress: "engineering" or "true".
     """
-    exponent = 2 / 3 if corrected else 1.0
-    found = hertz_approach(_newtons(force), young_modulus=modulus * MPa, exponent=exponent)
+    engineering = float(yeoh.stress(1 + strain, facts()[material].yeoh))
+    # Rubber keeps its volume: what it is stretched by, its cross-section shrinks by.
+    shrunk = 1 + strain if stress == "true" else 1.0
+    return engineering * shrunk / strain / MPa
+
+
+def cylinder_by_equation(force: str, modulus: float, width: float, height: float) -> float:
+    """Return the deformation of a cylinder, evenly stressed, mm; modulus in MPa, sizes in mm."""
+    element = Element("cylinder", width * MM, height * MM)
+    return shortening(element, _newtons(force), modulus * MPa) / MM
+
+
+def hemisphere_by_equation(force: str, modulus: float, width: float, cut: float) -> float:
+    """Return the same of a sphere's half that is cut flat."""
+    return shortening(cut_sphere(cut, width * MM / 2), _newtons(force), modulus * MPa) / MM
+
+
+def pyramid_by_equation(
+    force: str, modulus: float, width: float, height: float, cut: float
+) -> float:
+    """Return the same of a pyramid that is cut flat."""
+    element = Element("pyramid", width * MM, height * MM, cut)
+    return shortening(element, _newtons(force), modulus * MPa) / MM
+
+
+def hertzian(force: str, modulus: float, poisson_ratio: float, width: float) -> float:
+    """Return Hertz's approach of a hemisphere, with the exponent 2/3 that the print lacks, mm."""
+    found = hertz_approach(_newtons(force), width * MM / 2, modulus * MPa, poisson_ratio)
     return found / MM
 
 
-def by_finite_elements(
-    force: str, shape: Shape, modulus: float = 0.125, assumed: bool = False, of: str = "largest"
+def cylinder_by_finite_elements(
+    force: str, modulus: float, width: float, of: str = "largest"
 ) -> float:
-    """Return the displacement of the top by finite elements, mm.
+    """Return the displacement of a cylinder's top, 3 mm high, by finite elements, mm.
 
-    Assumed: the element that the analytic row asks for; else 6 mm wide, 3 mm high and not cut, of
-    which only the cylinder has a top to be loaded.
+    Args:
+        force: On the top, "0.1 N" say.
+        modulus: MPa.
+        width: 6 or 10 mm, for which results are kept.
+        of: The "mean" or the "largest" displacement, or that of a rigid "plate".
     """
-    element = ASSUMED[shape] if assumed else Element(shape)
+    element = Element("cylinder", width * MM)
     return fem_deformation(element, _newtons(force), modulus * MPa, of) / MM
 
 
-@simulated
-def least_force_felt(shape: Shape) -> float:
-    """Return the force whose resistance change is that of the pyramid at 0.01 N, N.
+def cut_by_finite_elements(force: str, shape: Shape, modulus: float, cut: float) -> float:
+    """Return the largest displacement of the top of an element 6 mm wide and cut flat, mm."""
+    by_force = largest_for(shape, cut) * STATED_MODULUS / (modulus * MPa)
+    return by_force * _newtons(force) / MM
 
-    The deformation is that of Eq. (2.1), the law of the skin our own.
+
+def least_force_by_deformation(
+    pyramid_feels: float, pyramid: float, shape: float, threshold: float
+) -> float:
+    """Return the least force that a shape feels, N, if deformation rises in proportion to force.
+
+    Args:
+        pyramid_feels: The least force that the pyramid feels, N.
+        pyramid, shape: Deformations of the two under one load.
+        threshold: Deformation from which the shape is felt, as a part of that of the pyramid.
     """
-    return least_force(ASSUMED[shape], read_threshold(), STATED_MODULUS)
+    return pyramid_feels * pyramid / shape * threshold
 
 
 @simulated
-def ceiling_force(modulus: float = 0.125) -> float:
+def ceiling_force(modulus: float) -> float:
     """Return the force at which the pyramid's resistance has reached 1.5 MOhm, N."""
     return least_force(ASSUMED["pyramid"], 0.5e6, modulus * MPa)
-
-
-def read_threshold() -> float:
-    """Return the change of resistance that a pyramid shows at 0.01 N, Ohm."""
-    return float(resistance_under(ASSUMED["pyramid"], 0.01, STATED_MODULUS)) - AT_REST
 
 
 def _newtons(force: str) -> float:
@@ -99,22 +122,30 @@ def elements_of_a_line(share: float) -> float:
 SINGLE, BAGGED = "k-nearest neighbours", "bagged neighbours"
 
 
-def object_contacts(times: int = 10) -> float:
-    """Return the contacts of Section 2.4: objects, each so many times."""
-    return float(len(FOODS) * times)
+def all_contacts(objects: Sequence[str], times: float) -> float:
+    """Return the contacts of objects, each so many times."""
+    return len(objects) * times
 
 
-@simulated
-def split_accuracy(classifier: str, part: str) -> float:
-    """Return the mean accuracy over 20 splits, %; `part` is "cross_validated" or "tested"."""
-    return float(100 * split_shares(classifier, part).mean())
+def share_of_a_count(percent: float, contacts: float, part: float = 100.0) -> float:
+    """Return the share of a whole number of contacts that comes nearest to a printed one, %.
+
+    Args:
+        percent: The printed share.
+        contacts: Contacts in all.
+        part: Those of them that were judged, %.
+    """
+    return nearest_share(percent, round(part / 100 * contacts))
 
 
 @simulated
 def best_of_the_others(part: str) -> float:
-    """Return the best mean accuracy of a classifier that has nothing to do with neighbours, %."""
+    """Return the best mean accuracy of a classifier that has nothing to do with neighbours, %.
+
+    `part` is "cross_validated" or "tested"; the mean is that over 20 splits.
+    """
     others = set(kept("classifiers")["classifier"]) - {SINGLE, BAGGED}
-    return max(split_accuracy(name, part) for name in others)
+    return float(max(100 * split_shares(name, part).mean() for name in others))
 
 
 @simulated
@@ -123,58 +154,40 @@ def best_k(part: str = "cross_validated") -> float:
     return float(kept("neighbours").groupby("k")[part].mean().idxmax())
 
 
-@simulated
-def accuracy_on_objects(bagged: bool) -> float:
-    """Return the accuracy on the eight objects, %; the bagging classifier's for seed 0."""
-    model = bagged_neighbours() if bagged else nearest_neighbours()
-    return 100 * accuracy(right_on_objects(model)).share
+def accuracy_of(measured: float, true: float) -> float:
+    """Return the accuracy of a measured weight, %."""
+    return 100 * Weighing(measured, deviation=0.0, true=true).accuracy
 
 
-def accuracy_of(item: str) -> float:
-    """Return the accuracy of an object of Table 2.2 from its two weights, %."""
-    return 100 * table_2_2()[item].accuracy
+def newtons(weight: float, deviation: float = 0.0, times: float = 0.0) -> float:
+    """Return a weight in gram-force, or what is some deviations from it, in N."""
+    return (weight + times * deviation) * GRAM_FORCE
 
 
-def mean_accuracy() -> float:
-    """Return the mean of the accuracies of Table 2.2, %."""
-    every = [accuracy_of(item) for item in table_2_2()]
-    return sum(every) / len(every)
+def mean_deviation(deviations: Mapping[str, float], without: str = "none") -> float:
+    """Return the mean of deviations by object, gf, in N; one object may be left out."""
+    return newtons(mean([value for name, value in deviations.items() if name != without]))
 
 
-def best_accuracy() -> float:
-    """Return the best of the accuracies of Table 2.2, %."""
-    return max(accuracy_of(item) for item in table_2_2())
-
-
-def mean_deviation() -> float:
-    """Return the mean of the deviations of Table 2.2, N."""
-    every = [row.deviation for row in table_2_2().values()]
-    return sum(every) / len(every)
-
-
-def largest_force() -> float:
-    """Return the largest weight of the calibration, N."""
-    return max(WEIGHTS) * GRAM_FORCE
-
-
-def weights() -> float:
-    """Count the different weights that Section 2.3 lists."""
-    return float(len(set(WEIGHTS)))
-
-
-def points(times: int = 3) -> float:
+def points(weights: float, times: float) -> float:
     """Return the data points: the weights and zero, so many times each."""
-    return (weights() + 1) * times
+    return (weights + 1) * times
 
 
-def nearest_weight(weight: str, doubled: bool = False) -> float:
-    """Return what at most three pieces of the set make that is nearest to a weight, gf.
+def nearest_weight(
+    weight: float, pieces: Sequence[float], together: float, twice: Sequence[float] = ()
+) -> float:
+    """Return what pieces of a set make that is nearest to a weight, gf.
 
-    Doubled, a second 2 and a second 20 are in the set.
+    Args:
+        weight: That is wanted, gf.
+        pieces: Of the set, each once, gf.
+        together: Most pieces that are put together.
+        twice: Pieces of which the set holds a second one.
     """
-    pieces = (*SET, 2, 20) if doubled else SET
-    made = {float(sum(chosen)) for count in (1, 2, 3) for chosen in combinations(pieces, count)}
-    return min(sorted(made), key=lambda each: abs(each - float(weight)))
+    held, counts = (*pieces, *twice), range(1, int(together) + 1)
+    made = {sum(chosen) for count in counts for chosen in combinations(held, count)}
+    return min(sorted(made), key=lambda each: abs(each - weight))
 
 
 @simulated
@@ -183,28 +196,13 @@ def weighed(item: str) -> float:
     return weighed_objects()[item].measured / GRAM_FORCE
 
 
-WEIGHED = {"egg": "egg", "tofu": "tofu", "carrot": "sliced carrot"}
-"""The row of Table 2.2 for each object; the text calls the carrot sliced, then small."""
+def pressed(lift: float, other_lift: float, other_contact: float) -> float:
+    """Return the contact force, N, that an object's lift force needs, Eq. (2.8).
 
-
-def pressed(name: str, friction: float) -> float:
-    """Return the contact force, N, that the printed estimated lift force of an object needs."""
-    return contact_force(float(printed_grasps()[name].lift), friction)
-
-
-def lift_of_desired(name: str, friction: float) -> float:
-    """Return the lift force, N, that asks for the printed desired force of an object."""
-    return lift_force(desired_force(name), friction)
-
-
-def printed_lift(name: str) -> float:
-    """Return the estimated lift force that Figure 2.13 prints of an object, N."""
-    return float(printed_grasps()[name].lift)
-
-
-def true_weight(name: str) -> float:
-    """Return what Table 2.2 prints as the true weight of an object, N."""
-    return table_2_2()[WEIGHED[name]].true
+    The friction is that of another object: between its lift and contact force, Eq. (2.9).
+    """
+    friction = other_lift / lift_force(other_contact, friction=1.0)
+    return contact_force(lift, friction)
 
 
 @simulated

@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from math import pi, prod
 
+from book.companion.claims import read_claims
+
 
 def same(value: float, scale: float = 1.0) -> float:
     """Return a number that is printed elsewhere, in another unit by ``scale``."""
@@ -75,3 +77,13 @@ def nearest_share(percent: float, whole: float) -> float:
     96.43
     """
     return 100 * round(percent / 100 * whole) / whole
+
+
+def section_of(claim: str) -> float:
+    """Return the number of the section in which a claim stands, to hold a reference against.
+
+    >>> section_of("2.4-objects-bagged")
+    2.4
+    """
+    where = {found.id: found.where for found in read_claims()}[claim]
+    return float(where.removeprefix("Section "))
