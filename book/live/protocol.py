@@ -6,17 +6,10 @@ from struct import calcsize
 import pandas as pd
 
 from book.companion.chips import Markdown
+from softgrip.board import protocol
 from softgrip.board.firmware.header import README, TYPES
 from softgrip.board.framing import LARGEST
-from softgrip.board.protocol import (
-    BAUD,
-    MESSAGES,
-    PROTOCOL_VERSION,
-    TABLE,
-    TELEMETRY,
-    Message,
-    in_words,
-)
+from softgrip.board.protocol import MESSAGES, in_words
 
 FRAME = 2 + 2 + 1 + 1
 """Bytes of a frame beside its payload: id, number; CRC; the byte of COBS; the 0 at the end."""
@@ -55,7 +48,7 @@ def message_table() -> pd.DataFrame:
     )
 
 
-def field_table(message: Message) -> pd.DataFrame:
+def field_table(message: protocol.Message) -> pd.DataFrame:
     """Tabulate the fields of a message in their order on the line."""
     rows, offset = [], 0
     for field in message.fields:
@@ -95,12 +88,12 @@ def reason_table(reasons: type[IntEnum]) -> pd.DataFrame:
 
 def telemetry_bytes() -> int:
     """Return the length of a telemetry frame on the line."""
-    return TELEMETRY.layout.size + FRAME
+    return protocol.TELEMETRY.layout.size + FRAME
 
 
 def line_table() -> pd.DataFrame:
     """Tabulate the line: version, rate, and what of it telemetry takes."""
-    rate, frame = BAUD / BITS, telemetry_bytes()
+    rate, frame = protocol.BAUD / BITS, telemetry_bytes()
     return pd.DataFrame(
         {
             "what": [
@@ -112,9 +105,9 @@ def line_table() -> pd.DataFrame:
                 "telemetry takes of the line",
             ],
             "value": [
-                str(PROTOCOL_VERSION),
-                f"`{TABLE:08x}`",
-                f"{BAUD} baud, 8N1: {rate / 1e3:.0f} kB/s",
+                str(protocol.PROTOCOL_VERSION),
+                f"`{protocol.TABLE:08x}`",
+                f"{protocol.BAUD} baud, 8N1: {rate / 1e3:.0f} kB/s",
                 f"{LARGEST} bytes",
                 f"{frame} bytes, {1e3 * frame / rate:.1f} ms",
                 f"{40 * frame / rate:.0%}",

@@ -2,13 +2,13 @@
 
 import time
 from collections.abc import Callable
-from types import TracebackType
 from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 from serial.tools import list_ports
 
+from softgrip.board import protocol
 from softgrip.board.calibration import BoardCalibration, nominal
 from softgrip.board.errors import (
     BoardError,
@@ -18,22 +18,7 @@ from softgrip.board.errors import (
 )
 from softgrip.board.info import BoardInfo, Limits, Scale
 from softgrip.board.link import Link, SerialLink
-from softgrip.board.protocol import (
-    CHANNELS,
-    CLEAR,
-    COUNTERS,
-    ESTOP,
-    HOME,
-    PROTOCOL_VERSION,
-    SET_LIMITS,
-    SETPOINT,
-    TELEMETRY_PERIOD,
-    VENT,
-    Flag,
-    Reason,
-    Values,
-    in_words,
-)
+from softgrip.board.protocol import Flag, Reason, Values, in_words
 from softgrip.board.session import GREET_WITHIN, Session, Telemetry
 from softgrip.errors import InvalidInputError
 from softgrip.logs.schema import LogHeader
@@ -42,7 +27,7 @@ from softgrip.simulator.motor import one_speed
 from softgrip.simulator.parameters import PumpParameters
 from softgrip.simulator.sensors import Measurement
 
-PRESSURE, FLEX = CHANNELS.index("pressure"), CHANNELS.index("flex_1")
+PRESSURE, FLEX = protocol.CHANNELS.index("pressure"), protocol.CHANNELS.index("flex_1")
 TELEMETRY_WITHIN = 1.0
 TRY_EVERY = 0.2
 """s between attempts to open a port that is not there."""
@@ -87,13 +72,13 @@ class Board:
         port: str | Link,
         *,
         fingers: int = 1,
-        period: float = TELEMETRY_PERIOD,
+        period: float = protocol.TELEMETRY_PERIOD,
         calibration: BoardCalibration | None = None,
         pump: PumpParameters | None = None,
         emulated: bool = False,
     ) -> None:
-        frames = round(period / TELEMETRY_PERIOD)
-        if frames < 1 or abs(frames * TELEMETRY_PERIOD - period) > 1e-9:
+        frames = round(period / protocol.TELEMETRY_PERIOD)
+        if frames < 1 or abs(frames * protocol.TELEMETRY_PERIOD - period) > 1e-9:
             raise InvalidInputError("period", expected="a multiple of 25 ms", got=period)
         self.calibration = nominal(2) if calibration is None else calibration
         if not 1 <= fingers <= min(2, len(self.calibration.angles)):
@@ -186,7 +171,7 @@ class Board:
 
     def counters(self) -> Values:
         """Return the board's counts of good and bad frames."""
-        return self.session.ask(COUNTERS)
+        return self.session.ask(protocol.COUNTERS)
 
     def header(self) -> LogHeader:
         """Return what a log says of this rig."""
@@ -197,7 +182,7 @@ class Board:
             back_end="emulated board" if self.emulated else "board",
             period=self.period,
             board=info.identity,
-            firmware=f"protocol {PROTOCOL_VERSION} build {info.build}",
+            firmware=f"protocol {protocol.PROTOCOL_VERSION} build {info.build}",
             calibration=self.calibration.name,
             notes={"area": f"{self.pump.area!r} m^2", "lead": f"{self.pump.lead!r} m"},
         )
@@ -213,7 +198,7 @@ class Board:
         """
         limit = self.info.limits.speed
         speed = min(max(one_speed(command), -limit), limit)
-        until = self.time + self.period - TELEMETRY_PERIOD / 2
+        until = self.time + self.period - protocol.TELEMETRY_PERIOD / 2
         self.turn(speed, self.period)
         self.session.wait(lambda: self.time >= until, self.period + HUNG_AFTER, "telemetry")
         return self.measure()
@@ -227,7 +212,7 @@ class Board:
         """
         self.session.alive_for(hold + HUNG_AFTER if speed else float("inf"))
         try:
-            self.session.ask(SETPOINT, speed=self.scale.speed_out(speed))
+            self.session.ask(protocol.SETPOINT, speed=self.scale.speed_out(speed))
         except CommandRefusedError as error:
             if error.reason not in HELD_BACK:
                 raise
@@ -246,11 +231,11 @@ class Board:
 
     def emergency_stop(self) -> None:
         """Stop at once, and refuse to move until `clear`; the board keeps the latch."""
-        self.session.ask(ESTOP)
+        self.session.ask(protocol.ESTOP)
 
     def clear(self) -> None:
         """Take an emergency stop and latched faults back, if their cause is gone."""
-        self.session.ask(CLEAR)
+        self.session.ask(protocol.CLEAR)
 
     def home(self) -> None:
         """Draw the plunger out to its switch, through an open valve where there is one.
@@ -262,7 +247,7 @@ class Board:
         self.vent(open_valve=True)
         self.session.alive_for(HOME_WITHIN)
         try:
-            self.session.ask(HOME)
+            self.session.ask(protocol.HOME)
         except CommandRefusedError as error:
             # Said again, since its answer was lost, it finds itself under way.
             if error.reason != in_words(Reason.MOVING):
@@ -278,11 +263,11 @@ class Board:
     def vent(self, *, open_valve: bool) -> None:
         """Open or shut the valve; nothing happens where there is none."""
         if self.info.valve:
-            self.session.ask(VENT, open=int(open_valve))
+            self.session.ask(protocol.VENT, open=int(open_valve))
 
     def set_limits(self, limits: Limits) -> Limits:
         """Set the limits, at rest and within the board's bounds; return those now in force."""
-        self.session.ask(SET_LIMITS, **self.scale.limits_out(limits))
+        self.session.ask(protocol.SET_LIMITS, **self.scale.limits_out(limits))
         self._greet()
         return self.info.limits
 
@@ -325,19 +310,14 @@ class Board:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         """Stop, vent, and give the port up."""
         try:
             self.stop()
             self.vent(open_valve=True)
         except BoardError:
             # The first error is the one to tell; a board that does not hear stops by itself.
-            if error is None:
+            if error[0] is None:
                 raise
         finally:
             self.session.end()

@@ -44,10 +44,6 @@ class Scale:
         """Return the board's speed for rad/s."""
         return round(speed / REV * self.steps * SPEED_SCALE)
 
-    def speed_in(self, speed: int) -> float:
-        """Return rad/s for the board's speed."""
-        return speed / SPEED_SCALE / self.steps * REV
-
     def travel_in(self, position: int) -> float:
         """Return the travel of the plunger, m, at a position in steps."""
         return position / self.steps * self.pump.lead

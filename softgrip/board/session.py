@@ -4,6 +4,7 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from softgrip.board import protocol
 from softgrip.board.errors import (
     BoardError,
     BoardResetError,
@@ -14,22 +15,7 @@ from softgrip.board.errors import (
 )
 from softgrip.board.framing import Frame, FrameReader, encode
 from softgrip.board.link import Link
-from softgrip.board.protocol import (
-    ACK,
-    BY_ID,
-    HEARTBEAT,
-    HELLO,
-    NACK,
-    PROTOCOL_VERSION,
-    TABLE,
-    TELEMETRY,
-    Flag,
-    Message,
-    Reason,
-    Values,
-    in_words,
-    reason_in_words,
-)
+from softgrip.board.protocol import Flag, Message, Reason, Values, in_words
 
 GREET_WITHIN = 6.0
 """s: an Arduino that was reset by the opening of its port answers after one to two."""
@@ -64,7 +50,7 @@ class Telemetry:
     @classmethod
     def of(cls, payload: bytes) -> "Telemetry":
         """Return the content of a frame's payload."""
-        number, time, *more = TELEMETRY.layout.unpack(payload)
+        number, time, *more = protocol.TELEMETRY.layout.unpack(payload)
         position, speed, flags, _ = more[-4:]
         return cls(number, time * 1e-3, tuple(more[:-4]), position, speed, Flag(flags))
 
@@ -114,18 +100,15 @@ class Session:
         """
         self._alive_until = self.link.now() + seconds
 
-    def ask(self, message: Message, **values: int) -> Values:
-        """Say a message with these fields; see `say`."""
-        return self.say(message, message.pack(**values))
-
-    def say(self, message: Message, payload: bytes, *, tries: int = TRIES) -> Values:
-        """Say something and return the answer's fields.
+    def ask(self, message: Message, *, tries: int = TRIES, **values: int) -> Values:
+        """Say a message with these fields and return the answer's.
 
         Raises:
             CommandRefusedError: If the board says no.
             NoAnswerError: If it says nothing.
             ConnectionLostError: If the line broke, or the board has begun anew.
         """
+        payload = message.pack(**values)
         for _ in range(tries):
             with self._news:
                 sequence = self._send(message, payload)
@@ -135,14 +118,17 @@ class Session:
                 answer = self._answers.pop(sequence, None)
             if answer is None:
                 continue
-            if answer.id != NACK.id:
-                return BY_ID[answer.id].unpack(answer.payload)
-            _, reason = NACK.layout.unpack(answer.payload)
+            if answer.id != protocol.NACK.id:
+                return protocol.BY_ID[answer.id].unpack(answer.payload)
+            _, reason = protocol.NACK.layout.unpack(answer.payload)
             if reason == Reason.NOT_GREETED:
                 raise BoardResetError(self.port, "the board was reset", command=message.name)
             if reason != Reason.STALE:  # it was overtaken: say it again
                 raise CommandRefusedError(
-                    self.port, reason_in_words(reason), command=message.name, state=self.state
+                    self.port,
+                    protocol.reason_in_words(reason),
+                    command=message.name,
+                    state=self.state,
                 )
         raise NoAnswerError(self.port, "no answer", command=message.name, state=self.state)
 
@@ -153,11 +139,11 @@ class Session:
             VersionMismatchError: If the firmware was made from another table of messages.
             NoBoardError: If nothing answers.
         """
-        payload = HELLO.pack(version=PROTOCOL_VERSION, table=TABLE)
+        own = {"version": protocol.PROTOCOL_VERSION, "table": protocol.TABLE}
         deadline = self.link.now() + within
         while True:
             try:
-                told = self.say(HELLO, payload, tries=1)
+                told = self.ask(protocol.HELLO, tries=1, **own)
                 break
             except NoAnswerError:
                 if self.link.now() >= deadline:
@@ -169,11 +155,12 @@ class Session:
                     raise
                 told = {}
                 break
-        if (told.get("version"), told.get("table")) != (PROTOCOL_VERSION, TABLE):
+        if not own.items() <= told.items():
             raise VersionMismatchError(
                 self.port,
-                f"the firmware is not of this softgrip, which speaks protocol {PROTOCOL_VERSION} "
-                f"({TABLE:08x}): flash softgrip/board/firmware/softgrip_rig/softgrip_rig.ino",
+                "the firmware is not of this softgrip, which speaks protocol "
+                f"{own['version']} ({own['table']:08x}): flash "
+                "softgrip/board/firmware/softgrip_rig/softgrip_rig.ino",
                 command="hello",
             )
         return told
@@ -230,12 +217,15 @@ class Session:
                 self._take(frame)
             self._news.notify_all()
         if now - self._sent_at >= HEARTBEAT_EVERY and now < self._alive_until:
-            self._send(HEARTBEAT, b"")
+            self._send(protocol.HEARTBEAT, b"")
 
     def _take(self, frame: Frame) -> None:
-        if frame.id not in BY_ID or len(frame.payload) != BY_ID[frame.id].layout.size:
+        if (
+            frame.id not in protocol.BY_ID
+            or len(frame.payload) != protocol.BY_ID[frame.id].layout.size
+        ):
             return  # a board of another version; the handshake says so
-        if frame.id == TELEMETRY.id:
+        if frame.id == protocol.TELEMETRY.id:
             new, old = Telemetry.of(frame.payload), self.telemetry
             if old is not None:
                 if new.time < old.time:
@@ -246,5 +236,5 @@ class Session:
                     return
                 self.lost += (new.number - old.number - 1) % 65536 if new.time > old.time else 0
             self.telemetry, self.heard_at = new, self.link.now()
-        elif not (frame.id == ACK.id and frame.payload[0] == HEARTBEAT.id):
+        elif not (frame.id == protocol.ACK.id and frame.payload[0] == protocol.HEARTBEAT.id):
             self._answers[frame.sequence] = frame

@@ -1,6 +1,5 @@
 """One interface over what can be driven: a simulated rig, a replay, an emulated board, a board."""
 
-from types import TracebackType
 from typing import Protocol, Self
 
 from numpy.typing import ArrayLike
@@ -84,25 +83,22 @@ class Rig(Protocol):
 
     def __enter__(self) -> Self: ...
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None: ...
+    def __exit__(self, *error: object) -> None: ...
 
 
-class Interlock:
-    """What keeps a stand-in for a board as strict as the board, so that a script runs on both.
+class StandIn:
+    """What stands in for a board, as strict as the board, so that a script runs on both.
 
     Args:
         name: Of the stand-in, for messages.
         pressure_limit: Pa, above which nothing is pushed.
     """
 
+    real_time = False
+
     def __init__(self, name: str, pressure_limit: float) -> None:
         self.name, self.pressure_limit = name, pressure_limit
-        self.stopped = self.homed = False
+        self._stopped = self._homed = False
         self._event = ""
 
     def permitted(self, command: ArrayLike, pressure: float) -> float:
@@ -113,11 +109,11 @@ class Interlock:
             CommandRefusedError: After an emergency stop, or for a push before homing.
         """
         speed = one_speed(command)
-        if self.stopped:
+        if self._stopped:
             raise CommandRefusedError(
                 self.name, "emergency stop; clear() takes it back", command="advance"
             )
-        if speed > 0 and not self.homed:
+        if speed > 0 and not self._homed:
             raise CommandRefusedError(
                 self.name, "the plunger's place is not known; home() first", command="advance"
             )
@@ -127,6 +123,31 @@ class Interlock:
         return speed
 
     def take_event(self) -> str:
-        """Return the last event and forget it."""
+        """Return words on what happened since the last call, empty if nothing."""
         event, self._event = self._event, ""
         return event
+
+    def stop(self) -> None:
+        """Do nothing, unless something moves."""
+
+    def emergency_stop(self) -> None:
+        """Stop, and refuse to move until `clear`."""
+        self._stopped = True
+        self.stop()
+
+    def clear(self) -> None:
+        """Take an emergency stop back."""
+        self._stopped = False
+
+    def home(self) -> None:
+        """Allow pushes."""
+        self._homed = True
+
+    def reconnect(self, within: float) -> None:
+        """Do nothing: this line is never lost."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.stop()

@@ -10,16 +10,15 @@ from typing import NamedTuple
 from weakref import WeakSet
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats
 from softgrip.control.loop import Controller
 from softgrip.control.pid import PERIOD
 from softgrip.control.rig_controller import Tracking
 from softgrip.errors import InvalidInputError
+from softgrip.logs.fingers import column
 from softgrip.rig.interface import Rig
-from softgrip.rig.record import Recording, record
-from softgrip.simulator.motor import one_speed
+from softgrip.rig.record import Recording, Row, record
 
 
 @dataclass(frozen=True)
@@ -124,8 +123,7 @@ class LiveRun(threading.Thread):
         self.recording: Recording | None = None
         self.error: Exception | None = None
         self._rest, self._paced = rest, real_time and not rig.real_time
-        self._control = Tracking(experiment.controller(), experiment.reference)
-        self._command, self._begun = 0.0, 0.0
+        self._begun = 0.0
         self._halt = threading.Event()
 
     def start(self) -> None:
@@ -183,11 +181,12 @@ class LiveRun(threading.Thread):
         for _ in range(round(self._rest / self.rig.period)):
             self._obey()
             self.rig.advance(0.0)
+        self._obey()
         self.state = "running"
         self._begun = time.monotonic()
         self.recording = record(
             self.rig,
-            self,
+            Tracking(self.experiment.controller(), self.experiment.reference),
             self.experiment.duration,
             self.path,
             reference=self.experiment.reference[:, None],
@@ -199,15 +198,9 @@ class LiveRun(threading.Thread):
         if self._halt.is_set():
             self.rig.emergency_stop()  # what is commanded next is refused, and ends the run
 
-    def update(self, measured: ArrayLike) -> float:
-        """Return the next command, rad/s: `record` asks, in the thread."""
-        self._obey()
-        self._command = one_speed(self._control.update(measured))
-        return self._command
-
-    def _sampled(self, done: float, duration: float) -> None:  # noqa: ARG002
-        seen = self.rig.measure()
-        angles = tuple(float(angle) for angle in seen.angle[:, 0])
-        self.samples.append(Sample(done, self._command, float(seen.pressure[0]), angles))
-        if self._paced and (early := self._begun + done - time.monotonic()) > 0:
+    def _sampled(self, row: Row, _: float) -> None:
+        angles = tuple(row[column("angle", finger)] for finger in range(self.rig.fingers))
+        self.samples.append(Sample(row["time"], row["command"], row["pressure"], angles))
+        if self._paced and (early := self._begun + row["time"] - time.monotonic()) > 0:
             self._halt.wait(early)
+        self._obey()

@@ -24,8 +24,10 @@ RECONNECT_WITHIN = 10.0
 LONG_RUN = 5.0
 """s: a shorter run shows no progress."""
 
-Progress = Callable[[float, float], None]
-"""Called with the time of a run and its duration, s."""
+Row = dict[str, float]
+"""Of a log: values by column."""
+Progress = Callable[[Row, float], None]
+"""Called with a row that was logged, and the duration of the run, s."""
 
 
 @dataclass(frozen=True)
@@ -45,9 +47,10 @@ class Recording:
     log_failure: str
 
 
-def show_progress(done: float, duration: float) -> None:
+def show_progress(row: Row, duration: float) -> None:
     """Write a bar on the standard error stream, over the one before."""
     if duration >= LONG_RUN and (sys.stderr.isatty() or "ipykernel" in sys.modules):
+        done = min(row["time"], duration)
         bar = "#" * int(30 * done / duration)
         end = "\n" if done >= duration else ""
         print(f"\r[{bar:30}] {done:.0f} of {duration:.0f} s", end=end, file=sys.stderr, flush=True)
@@ -120,20 +123,18 @@ def record(
                 row = log_row(time, command, seen, wanted)
                 log.write(event=plain(connection.take_event()), **row)
                 samples += 1
-                progress(row["time"], duration)
+                progress(row, duration)
         except BaseException as error:  # Ctrl-C too: the log says why it ends
             log.note(f"ended by {type(error).__name__}: {error}")
             raise
         finally:
-            _rest(connection, log)
+            try:
+                connection.stop()
+            except (
+                BoardError
+            ) as error:  # a board that does not hear has stopped the motor by itself
+                log.note(f"the stop was not heard: {error}")
     return Recording(Path(path), samples, tuple(lost), log.failure)
-
-
-def _rest(connection: Rig, log: RunLog) -> None:
-    try:
-        connection.stop()
-    except BoardError as error:  # a board that does not hear has stopped the motor by itself
-        log.note(f"the stop was not heard: {error}")
 
 
 def reference_rows(reference: ArrayLike | None, fingers: int) -> Floats:
@@ -158,7 +159,7 @@ def more_columns(fingers: int, *, reference: bool) -> dict[str, str]:
     return units
 
 
-def log_row(time: float, command: float, seen: Measurement, reference: Floats) -> dict[str, float]:
+def log_row(time: float, command: float, seen: Measurement, reference: Floats) -> Row:
     """Return the row of a log.
 
     Args:

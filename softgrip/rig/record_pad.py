@@ -3,38 +3,25 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Protocol
 
 from softgrip.arrays import check_positive
+from softgrip.board.driver import Board
 from softgrip.board.protocol import TELEMETRY_PERIOD
 from softgrip.board.session import Telemetry
 from softgrip.logs.contacts import PRESS, REST, WEIGHT
 from softgrip.logs.queued_writer import RunLog, plain
-from softgrip.logs.schema import PAD_CHANNELS, LogHeader
-from softgrip.rig.record import Progress, Recording, show_progress
+from softgrip.logs.schema import PAD_CHANNELS
+from softgrip.rig.record import Progress, Recording, Row, show_progress
+from softgrip.rig.simulated_pad import SimulatedPad
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.tactile.contacts import ELEMENTS
 
 BOARD = PadParameters()
 """Whose converter the board has."""
+PadSource = Board | SimulatedPad
+"""What a pad is heard through; a board of either set-up samples its channels."""
 Step = tuple[str, float]
 """What is done with the pad, as an event of `softgrip.logs.contacts`, and for how long, s."""
-
-
-class PadSource(Protocol):
-    """What a pad is heard through: a board of either set-up, or a `SimulatedPad`."""
-
-    def header(self) -> LogHeader:
-        """Return what a log says of it."""
-        ...
-
-    def listen(self) -> Telemetry:
-        """Wait for the next sample and return it: all channels, in counts."""
-        ...
-
-    def take_event(self) -> str:
-        """Return words on what happened since the last call, empty if nothing."""
-        ...
 
 
 def calibration_steps(seconds: float = 2.5) -> list[Step]:
@@ -63,7 +50,7 @@ def record_pad(
     """Write down what the pad says while it is touched; nothing moves.
 
     Args:
-        rig: A board of either set-up (both sample the pad's channels), or a `SimulatedPad`.
+        rig: Where it is heard.
         steps: What is done, one after the other: the words of each stand as an event where it
             begins. Or s, > 0, of which nothing is said yet: `read_contacts` takes the words as
             labels.
@@ -94,16 +81,17 @@ def record_pad(
                     start = told.time if start is None else start
                     time = told.time - start
                     event = "; ".join(filter(None, (plain(event), plain(rig.take_event()))))
-                    log.write(event=event, **_row(told, time))
+                    row = _row(told, time)
+                    log.write(event=event, **row)
                     event, samples = "", samples + 1
-                    progress(min(time, duration), duration)
+                    progress(row, duration)
         except BaseException as error:
             log.note(f"ended by {type(error).__name__}: {error}")
             raise
     return Recording(Path(path), samples, (), log.failure)
 
 
-def _row(told: Telemetry, time: float) -> dict[str, float]:
+def _row(told: Telemetry, time: float) -> Row:
     counts = dict(zip(PAD_CHANNELS, told.channels, strict=False))
     return {
         "time": round(time, 9),

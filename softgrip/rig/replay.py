@@ -2,8 +2,6 @@
 
 from dataclasses import replace
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,11 +12,11 @@ from softgrip.logs.fingers import fingers_of
 from softgrip.logs.gaps import gaps_of
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import LogHeader
-from softgrip.rig.interface import Interlock
+from softgrip.rig.interface import StandIn
 from softgrip.simulator.sensors import Measurement
 
 
-class Replay:
+class Replay(StandIn):
     """A log of the gripper as a `Rig`, one row a call of `advance`.
 
     A log with a gap is given as it came: the row after it is the next one, with its own time, and
@@ -37,21 +35,19 @@ class Replay:
         DataFileError: If it cannot be read, holds no row, or is a log of the pad.
     """
 
-    real_time = False
-
     def __init__(self, path: Path | str) -> None:
         self.log = read_log(path)
         if self.log.header.set_up != "gripper" or self.log["time"].size == 0:
             raise DataFileError(path, expected="rows of a gripper", got=self.log.header.set_up)
-        self.name, self.period, self.difference = str(path), self.log.header.period, 0.0
+        # What was recorded was permitted then: only the latch and the homing are kept here.
+        super().__init__(f"replay of {path}", np.inf)
+        self.period, self.difference = self.log.header.period, 0.0
         self._angles = fingers_of(self.log)
         self._counts = fingers_of(self.log, "angle_counts").astype(np.int64)
         self.fingers, self._row, self._events = len(self._angles), 0, dict(self.log.events)
         for gap in gaps_of(self.log):
             told = self._events.get(gap.end, "")
             self._events[gap.end] = "; ".join(filter(None, (told, f"log: {gap}")))
-        # What was recorded was permitted then: only the latch and the homing are kept here.
-        self._interlock = Interlock(f"replay of {path}", np.inf)
 
     def measure(self) -> Measurement:
         """Return the present row."""
@@ -70,7 +66,7 @@ class Replay:
         Raises:
             EndOfReplayError: After the last row.
         """
-        speed = self._interlock.permitted(command, 0.0)
+        speed = self.permitted(command, 0.0)
         if self._row + 1 == self.log["time"].size:
             raise EndOfReplayError(self.name, f"the log ends after row {self._row + 1}")
         self._row += 1
@@ -81,35 +77,6 @@ class Replay:
         """Return the words of the present row, once."""
         return self._events.pop(float(self.log["time"][self._row]), "")
 
-    def stop(self) -> None:
-        """Do nothing: nothing moves."""
-
-    def emergency_stop(self) -> None:
-        """Refuse commands until `clear`."""
-        self._interlock.stopped = True
-
-    def clear(self) -> None:
-        """Take an emergency stop back."""
-        self._interlock.stopped = False
-
-    def home(self) -> None:
-        """Allow pushes."""
-        self._interlock.homed = True
-
-    def reconnect(self, within: float) -> None:
-        """Do nothing: this line is never lost."""
-
     def header(self) -> LogHeader:
         """Return the header of the log, which stays what it was: simulated or logged."""
-        return replace(self.log.header, back_end="replay", source=f"replay of {self.name}")
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Leave; nothing is open."""
+        return replace(self.log.header, back_end="replay", source=self.name)

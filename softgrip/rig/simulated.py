@@ -1,15 +1,12 @@
 """The simulated rig behind the interface of a board; it refuses what the board refuses."""
 
-from types import TracebackType
-from typing import Self
-
 from numpy.typing import ArrayLike
 
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.logs.schema import LogHeader
 from softgrip.provenance import Provenance
-from softgrip.rig.interface import Interlock
+from softgrip.rig.interface import StandIn
 from softgrip.simulator.calibration import FULL_PRESSURE, design_1
 from softgrip.simulator.calibration_table import FILE
 from softgrip.simulator.gripper_calibration_table import FILE as GRIPPER_FILE
@@ -29,7 +26,7 @@ def simulated_gripper(*, seed: int = 0) -> "SimulatedRig":
     return SimulatedRig(rig, f"data/{GRIPPER_FILE}", seed)
 
 
-class SimulatedRig:
+class SimulatedRig(StandIn):
     """A simulated rig of one run as a `Rig`.
 
     Args:
@@ -43,8 +40,6 @@ class SimulatedRig:
     (1, 1)
     """
 
-    real_time = False
-
     def __init__(
         self,
         rig: Simulation,
@@ -55,10 +50,10 @@ class SimulatedRig:
     ) -> None:
         if rig.runs != 1:
             raise InvalidInputError("rig", expected="one run", got=rig.runs)
+        super().__init__("simulated rig", pressure_limit)
         self.rig, self.period = rig, rig.period
         self.fingers = len(rig.parameters.fingers)
         self._calibration, self._seed = calibration, seed
-        self._interlock = Interlock("simulated rig", pressure_limit)
         self._last = rig.measure()
 
     def measure(self) -> Measurement:
@@ -67,36 +62,20 @@ class SimulatedRig:
 
     def advance(self, command: ArrayLike) -> Measurement:
         """Hold a motor speed for one period; see `Rig.advance`."""
-        speed = self._interlock.permitted(command, float(self._last.pressure[0]))
+        speed = self.permitted(command, float(self._last.pressure[0]))
         self._last = self.rig.advance(speed)
         return self._last
-
-    def take_event(self) -> str:
-        """Return words on what happened since the last call."""
-        return self._interlock.take_event()
 
     def stop(self) -> None:
         """Bring the motor to rest, which takes a period."""
         self._last = self.rig.advance(0.0)
-
-    def emergency_stop(self) -> None:
-        """Stop, and refuse to move until `clear`."""
-        self._interlock.stopped = True
-        self.stop()
-
-    def clear(self) -> None:
-        """Take an emergency stop back."""
-        self._interlock.stopped = False
 
     def home(self) -> None:
         """Draw the plunger out to its end; a plunger that is there does not move."""
         limit = self.rig.parameters.pump.speed_limit
         while self.rig.truth.plunger[0] > 0:
             self._last = self.rig.advance(-limit)
-        self._interlock.homed = True
-
-    def reconnect(self, within: float) -> None:
-        """Do nothing: this line is never lost."""
+        super().home()
 
     def header(self) -> LogHeader:
         """Return what a log says of this rig."""
@@ -110,14 +89,3 @@ class SimulatedRig:
             seed=str(self._seed),
             notes={"area": f"{pump.area!r} m^2", "lead": f"{pump.lead!r} m"},
         )
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.stop()

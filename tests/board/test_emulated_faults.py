@@ -84,8 +84,8 @@ import sys
 from softgrip.board.driver import Board
 from softgrip.rig.record import record
 
-def say(done, duration):
-    print(done, flush=True)
+def say(row, duration):
+    print(row["time"], flush=True)
 
 rig = Board(sys.argv[1], emulated=True)
 rig.home()

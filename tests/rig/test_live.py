@@ -115,15 +115,15 @@ def test_a_board_hears_the_stop_at_once(pty_board, path):
     with Board(port, emulated=True) as rig:
         assert rig.real_time
         run = run_of(rig, path)
-        update, within, go_on = run.update, Event(), Event()
+        advance, within, go_on = rig.advance, Event(), Event()
 
-        def held(measured):
+        def held(command):
             if len(run.samples) > 10:
                 within.set()
                 go_on.wait(SOON)
-            return update(measured)
+            return advance(command)
 
-        run.update = held
+        rig.advance = held
         run.start()
         assert within.wait(SOON)
         run.emergency_stop()

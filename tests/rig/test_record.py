@@ -201,8 +201,8 @@ class Slow:
         time.sleep(0.005)
         return 0.1
 
-def say(done, duration):
-    print(done, flush=True)
+def say(row, duration):
+    print(row["time"], flush=True)
 
 with connect("simulated") as rig:
     rig.home()
@@ -261,14 +261,14 @@ def test_a_full_disk_ends_the_log_and_not_the_run(path):
 
 
 def test_progress_is_shown_of_long_runs_on_a_terminal(capsys, monkeypatch):
-    show_progress(1.0, 10.0)
+    show_progress({"time": 1.0}, 10.0)
     assert capsys.readouterr().err == ""
     monkeypatch.setattr("sys.stderr.isatty", lambda: True)
-    show_progress(1.0, 2.0)
+    show_progress({"time": 1.0}, 2.0)
     assert capsys.readouterr().err == ""
-    show_progress(5.0, 10.0)
+    show_progress({"time": 5.0}, 10.0)
     assert "###" in (shown := capsys.readouterr().err)
     assert "5 of 10 s" in shown
     with suppress(KeyboardInterrupt):
-        show_progress(10.0, 10.0)
+        show_progress({"time": 10.0}, 10.0)
     assert capsys.readouterr().err.endswith("\n")

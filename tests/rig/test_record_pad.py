@@ -82,8 +82,8 @@ def emulated(board, path):
     """Record them with a hand before an emulated board, whose channels have the pad's voltages."""
     hand, now = PadHand(), [0.0]
 
-    def feel(done, _):
-        now[0] = done + TELEMETRY_PERIOD
+    def feel(row, _):
+        now[0] = row["time"] + TELEMETRY_PERIOD
         for channel, count in enumerate(hand.counts(now[0])):
             board.set_count(channel, int(count))
 
