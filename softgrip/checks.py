@@ -1,9 +1,12 @@
 """Checks of input; they look at floats and arrays alike. See also `softgrip.arrays`."""
 
+from collections.abc import Collection
+from dataclasses import fields
+
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
 
 
@@ -13,6 +16,22 @@ def check_not_negative(**values: ArrayLike) -> None:
         array = np.asarray(value, dtype=np.float64)
         if not (np.isfinite(array).all() and (array >= 0).all()):
             raise InvalidInputError(name, expected="finite numbers >= 0", got=value)
+
+
+def check_fields(
+    parameters: object, *, zero: Collection[str] = (), other: Collection[str] = ()
+) -> None:
+    """Raise InvalidInputError unless the fields of a dataclass are finite and above zero.
+
+    Args:
+        parameters: The dataclass; each field is a number or numbers.
+        zero: Names of fields that may be zero.
+        other: Names of fields that are no numbers.
+    """
+    for entry in fields(parameters):  # type: ignore[arg-type]
+        if entry.name not in other:
+            check = check_not_negative if entry.name in zero else check_positive
+            check(**{entry.name: getattr(parameters, entry.name)})
 
 
 def check_finite(**values: ArrayLike) -> None:

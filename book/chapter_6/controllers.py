@@ -12,9 +12,9 @@ from softgrip.control.lqr import Weights, lqr_gain
 from softgrip.control.rig_controller import CommandSequence, RigController, Tracking
 from softgrip.control.state_feedback import SPEED_DIGITS, ObserverFeedback
 from softgrip.dynamics.second_order import SecondOrder
-from softgrip.gripper.internal_model import PERIOD, InternalModelController
+from softgrip.gripper.internal_model import PERIOD, InternalModelController, controller_matrices
 from softgrip.gripper.inversion import mean_inverse
-from softgrip.gripper.optimal_feedforward import OptimalFeedforward, trade_off
+from softgrip.gripper.optimal_feedforward import FeedforwardProgram, OptimalFeedforward
 from softgrip.gripper.plant import Gripper
 from softgrip.gripper.reach import project
 from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
@@ -61,7 +61,8 @@ def best_command(model: Gripper) -> OptimalFeedforward:
 
     Of these, the ones that keep the fingers together best.
     """
-    return next(iter(trade_off(model, tuple(target_angles(model).tolist()), limit=SPEED_LIMIT)))
+    target = tuple(target_angles(model).tolist())
+    return next(FeedforwardProgram(model, target, limit=SPEED_LIMIT).trade_off())
 
 
 def gripper_controller(
@@ -80,14 +81,10 @@ def gripper_controller(
     if name == "optimal feedforward":
         return CommandSequence(np.round(best_command(known).command, SPEED_DIGITS))
     if name in FILTERS:
+        low_pass = filter_state_space(*FILTERS[name])
+        matrices = controller_matrices(known, mean_inverse(known), low_pass, period=PERIOD)
         return InternalModelController(
-            known,
-            target_angles(known),
-            mean_inverse(known),
-            filter_state_space(*FILTERS[name]),
-            period=PERIOD,
-            limit=limit,
-            digits=SPEED_DIGITS,
+            matrices, target_angles(known), limit=limit, digits=SPEED_DIGITS
         )
     mean = known.mean
     w = mean.natural_frequency

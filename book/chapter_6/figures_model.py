@@ -211,6 +211,7 @@ def table_6_d() -> pd.DataFrame:
     """Tabulate what the motor's limit does."""
     rows = []
     for name, printed in FILTERS.items():
+        matrices = controller_matrices(GRIPPER, mean_inverse(GRIPPER), filter_state_space(*printed))
         free = run_printed(name, duration=8.0)
         for unit, limit in (("rad/s", SPEED_LIMIT), ("rev/s", SPEED_LIMIT / REV)):
             row = {
@@ -221,13 +222,7 @@ def table_6_d() -> pd.DataFrame:
                 "peak over limit": f"{np.abs(free.commands).max() / limit:.2f}",
             }
             for words, known in (("model knows", limit), ("model does not", np.inf)):
-                controller = InternalModelController(
-                    GRIPPER,
-                    equal_targets(),
-                    mean_inverse(GRIPPER),
-                    filter_state_space(*printed),
-                    limit=known,
-                )
+                controller = InternalModelController(matrices, equal_targets(), limit=known)
                 found = run_gripper(GRIPPER, controller, duration=8.0, limit=limit, points=1)
                 row[f"end, {words}"] = f"{found.angles[0, -1] / equal_targets()[0]:.2f}"
             rows.append(row)

@@ -23,7 +23,7 @@ from softgrip.gripper.gripper_batch import GripperBatch, Trial, can_rest, draw_g
 from softgrip.gripper.internal_model import ControllerMatrices, controller_matrices
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.monte_carlo import Outcome, simulate
-from softgrip.gripper.optimal_feedforward import optimal_feedforward, trade_off
+from softgrip.gripper.optimal_feedforward import FeedforwardProgram
 from softgrip.gripper.plant import PRINTED
 from softgrip.gripper.printed_loop import FILTERS
 from softgrip.gripper.reach import project
@@ -60,7 +60,7 @@ def outcome(name: str, *, pairs: int = PAIRS) -> Outcome:
     grippers = draw_grippers(PRINTED, pairs, seed=SEED) if pairs > 1 else GripperBatch.of(PRINTED)
     if name != BEST:
         return simulate(grippers, printed_loop(name), Trial(TARGET, limit=LIMIT, bands=BANDS))
-    best = optimal_feedforward(PRINTED, TARGET, settling=IN_TIME, limit=LIMIT)
+    best = FeedforwardProgram(PRINTED, TARGET, limit=LIMIT).settled_by(IN_TIME)
     trial = Trial(TARGET, limit=LIMIT, bands=BANDS, feedforward=tuple(best.command.tolist()))
     return simulate(grippers, None, trial)
 
@@ -122,7 +122,7 @@ def figure_6_f() -> Figure:
     drawn, axes = sheet(3.6)
     styles = ((BLACK, "-"), (BLUE, "--"), (VERMILION, "-."))
     for (name, limit), (colour, line) in zip(LIMITS.items(), styles, strict=True):
-        best = list(trade_off(PRINTED, TARGET, limit=limit, latest=2.5))
+        best = list(FeedforwardProgram(PRINTED, TARGET, limit=limit).trade_off(2.5))
         times, apart = np.array([(b.settling, 100 * b.worst_sync) for b in best]).T
         axes.plot(times, apart, color=colour, ls=line, marker=".", label=f"limit {name}")
     for name in FILTERS:
@@ -175,9 +175,9 @@ def table_6_f() -> pd.DataFrame:
     """Tabulate the least settling times."""
     rows = []
     for name, limit in LIMITS.items():
-        first = {
-            f"{100 * band:.0f} %": next(trade_off(PRINTED, TARGET, limit=limit, band=band)).settling
-            for band in (0.02, 0.05, 0.1)
-        }
-        rows.append({"limit": name, **{band: f"{time:.1f}" for band, time in first.items()}})
+        row = {"limit": name}
+        for band in (0.02, 0.05, 0.1):
+            first = next(FeedforwardProgram(PRINTED, TARGET, limit, band).trade_off())
+            row[f"{100 * band:.0f} %"] = f"{first.settling:.1f}"
+        rows.append(row)
     return pd.DataFrame(rows)

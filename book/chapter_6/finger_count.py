@@ -9,7 +9,7 @@ from dataclasses import astuple, dataclass
 import numpy as np
 
 from softgrip.errors import InvalidInputError
-from softgrip.gripper.optimal_feedforward import optimal_feedforward
+from softgrip.gripper.optimal_feedforward import FeedforwardProgram
 from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper
 from softgrip.gripper.reach import project
 from softgrip.kept import Kept
@@ -66,9 +66,8 @@ def count_point(fingers: int, spread: float) -> CountPoint:
     """Return what is out of reach of such fingers, and their least difference."""
     gripper = spread_gripper(fingers, spread)
     found = project(gripper, [TARGET] * fingers)
-    best = optimal_feedforward(
-        gripper, tuple(found.reached.tolist()), settling=SETTLING, limit=LIMIT
-    )
+    program = FeedforwardProgram(gripper, tuple(found.reached.tolist()), limit=LIMIT)
+    best = program.settled_by(SETTLING)
     worst = float(np.abs(found.residual).max()) / DEG
     return CountPoint(fingers, spread, found.share, worst, max(best.worst_sync, 0.0))
 

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from book.chapter_6.figures_model import SPA
 from book.companion.style import PRINTED, still, style
 from softgrip.gripper.gripper_loop import run_gripper
-from softgrip.gripper.internal_model import InternalModelController
+from softgrip.gripper.internal_model import InternalModelController, controller_matrices
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.plant import PRINTED as GRIPPER
 from softgrip.gripper.plant import FingerDynamics, Gripper
@@ -57,7 +57,8 @@ def draw_push(bandwidth: float, spread: float, disturbance: float) -> Figure:
 def _draw(bandwidth: float, spread: float, noise: float, disturbance: float) -> Figure:
     gripper, pushed = as_far_apart(spread), disturbance * DEG
     goal = project(gripper, [np.pi / 3] * 2).reached
-    controller = InternalModelController(gripper, goal, mean_inverse(gripper), low_pass(bandwidth))
+    matrices = controller_matrices(gripper, mean_inverse(gripper), low_pass(bandwidth))
+    controller = InternalModelController(matrices, goal)
     found = run_gripper(
         gripper,
         controller,

@@ -13,7 +13,8 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats
+from softgrip.checks import check_fields
 from softgrip.units import MM
 
 SMALL_ANGLE = 1e-4
@@ -38,9 +39,7 @@ class ElasticDisc:
     friction: float = 0.3
 
     def __post_init__(self) -> None:
-        check_positive(
-            stiffness=self.stiffness, radius=self.radius, mass=self.mass, friction=self.friction
-        )
+        check_fields(self)
 
 
 @dataclass(frozen=True)
@@ -121,7 +120,7 @@ class DiscBetweenFingers:
     states = 2
 
     def __post_init__(self) -> None:
-        check_positive(gap=self.gap, depth=self.depth, length=self.length, slow=self.slow)
+        check_fields(self, other=("disc",))
 
     def touches(self, angle: Floats, place: Floats) -> tuple[Touch, Touch]:
         """Return both contacts, for angles (2, ...) in rad and a place (...) in m."""

@@ -4,14 +4,14 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import control
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.signal import cont2discrete
 
 from softgrip.arrays import Floats, check_positive, read_only
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.internal_model import ControllerMatrices, InternalModelController
-from softgrip.gripper.plant import Gripper, state_space
+from softgrip.gripper.plant import Gripper, sampled, state_space
 
 
 @dataclass(frozen=True)
@@ -21,13 +21,11 @@ class GripperRun:
     Attributes:
         time: s, shape (N,).
         angles: The fingers' true angles, rad, shape (fingers, N).
-        sample_time: s, shape (samples,).
         commands: What the plant is given from each sample on, shape (samples,).
     """
 
     time: Floats
     angles: Floats
-    sample_time: Floats
     commands: Floats
 
 
@@ -76,9 +74,7 @@ def run_gripper(
         # The states are angle and rate over gain.
         pushed[2 + 2 * k, k] = finger.stiffness / finger.gain
     inputs = np.hstack([system.B, pushed])
-    A, B, C, *_ = cont2discrete(
-        (system.A, inputs, system.C, np.zeros((count, 1 + count))), step, "zoh"
-    )
+    A, B, C, _ = sampled(control.ss(system.A, inputs, system.C, 0), step)
     samples = round(duration / period)
     random = np.random.default_rng(seed)
     errors = noise * random.standard_normal((samples, count))
@@ -96,7 +92,6 @@ def run_gripper(
     return GripperRun(
         read_only(step * np.arange(samples * points + 1)),
         read_only(np.transpose(angles)),
-        read_only(period * np.arange(samples)),
         read_only(commands),
     )
 
@@ -111,8 +106,7 @@ def noise_gain(gripper: Gripper, matrices: ControllerMatrices) -> Floats:
         gripper: The fingers.
         matrices: The controller, with the same fingers in its model.
     """
-    system = state_space(gripper)
-    A, B, C, *_ = cont2discrete((system.A, system.B, system.C, system.D), matrices.period, "zoh")
+    A, B, C, _ = sampled(state_space(gripper), matrices.period)
     count = len(gripper.fingers)
     x, plant = np.zeros((len(matrices.A), count)), np.zeros((len(A), count))
     total, measured = np.zeros(count), np.eye(count)

@@ -12,12 +12,11 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import block_diag
-from scipy.signal import cont2discrete
 
 from softgrip.arrays import Floats, check_positive, read_only
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.inversion import LeftInverse, filtered_inverse
-from softgrip.gripper.plant import Gripper, state_space
+from softgrip.gripper.plant import Gripper, sampled, state_space
 
 PERIOD = 0.1
 """Sampling time of Section 6.4, s."""
@@ -73,21 +72,30 @@ def controller_matrices(
 ) -> ControllerMatrices:
     """Return Figure 6.3 in discrete time, with the feedback of Eq. (6.23).
 
-    Parameters as for `InternalModelController`.
+    Args:
+        gripper: The model inside: the nominal plant.
+        inverse: P-dagger.
+        low_pass: H(s), continuous, falling off as ``s^-3`` or faster.
+        period: Time between updates, s, > 0.
+        feedback_filter: Another H(s) for ``u_fb``; the same if None.
+        delay_samples: Updates by which the model inside takes the command to come late, >= 0.
+        method: How ``H P-dagger`` is made discrete. The plant's model is exact for a held command.
+
+    Raises:
+        InvalidInputError: If a number is outside its range.
     """
     check_positive(period=period)
     if delay_samples < 0:
         raise InvalidInputError("delay_samples", expected=">= 0", got=delay_samples)
     count = len(gripper.fingers)
-    system = state_space(gripper)
-    A_p, B_p, C_p, *_ = cont2discrete((system.A, system.B, system.C, system.D), period, "zoh")
-    ahead = _sampled(inverse, low_pass, period, method)
+    A_p, B_p, C_p, _ = sampled(state_space(gripper), period)
+    ahead = sampled(filtered_inverse(inverse, low_pass), period, method)
     if feedback_filter is None:
         # One filter sees Y_d - y_delta as a whole.
         A_f, B_f, C_f, D_f = ahead
         B_d, D_d = B_f, D_f
     else:
-        back = _sampled(inverse, feedback_filter, period, method)
+        back = sampled(filtered_inverse(inverse, feedback_filter), period, method)
         A_f, C_f = block_diag(ahead[0], back[0]), np.hstack([ahead[2], back[2]])
         B_d = np.vstack([ahead[1], np.zeros_like(back[1])])
         B_f = np.vstack([np.zeros_like(ahead[1]), back[1]])
@@ -119,30 +127,16 @@ def controller_matrices(
     )
 
 
-def _sampled(
-    inverse: LeftInverse, low_pass: control.StateSpace, period: float, method: Method
-) -> tuple[Floats, Floats, Floats, Floats]:
-    whole = filtered_inverse(inverse, low_pass)
-    A, B, C, D, _ = cont2discrete((whole.A, whole.B, whole.C, whole.D), period, method)
-    return A, B, C, D
-
-
 @final
 class InternalModelController:
     """The sampled controller of Figure 6.3, for one run or a batch of runs.
 
     Args:
-        gripper: The model inside: the nominal plant.
+        matrices: The controller, of `controller_matrices`.
         target: Angles to go to, rad, shape (fingers,), from the first update on; in the image of P
             at rest, or what can be reached of it is reached.
-        inverse: P-dagger.
-        filter: H(s), continuous, falling off as ``s^-3`` or faster.
-        period: Time between updates, s, > 0.
-        feedback_filter: Another H(s) for ``u_fb``; the same if None.
         limit: The command is cut to +-limit, and the model inside is given what is left. To leave
             the model ignorant of a limit, cut the command outside.
-        delay_samples: Updates by which the model inside takes the command to come late, >= 0.
-        method: How ``H P-dagger`` is made discrete. The plant's model is exact for a held command.
         digits: Decimals to which the command is given, so that the last bits of linear algebra,
             which differ from machine to machine, do not make runs differ; None for all.
 
@@ -152,41 +146,27 @@ class InternalModelController:
     >>> from softgrip.gripper.inversion import mean_inverse
     >>> from softgrip.gripper.plant import PRINTED
     >>> from softgrip.gripper.shaping_filter import low_pass
-    >>> loop = InternalModelController(PRINTED, [0.95, 1.12], mean_inverse(PRINTED), low_pass(3.0))
+    >>> matrices = controller_matrices(PRINTED, mean_inverse(PRINTED), low_pass(3.0))
+    >>> loop = InternalModelController(matrices, [0.95, 1.12])
     >>> loop.update([0.0, 0.0]).round(2).item()
     3.01
     """
 
     def __init__(
         self,
-        gripper: Gripper,
+        matrices: ControllerMatrices,
         target: ArrayLike,
-        inverse: LeftInverse,
-        filter: control.StateSpace,
         *,
-        period: float = PERIOD,
-        feedback_filter: control.StateSpace | None = None,
         limit: float = np.inf,
-        delay_samples: int = 0,
-        method: Method = "bilinear",
         digits: int | None = None,
     ) -> None:
         check_positive(limit=1.0 if np.isinf(limit) else limit)
+        self.matrices, self.limit, self.digits = matrices, limit, digits
         self.target = read_only(target)
-        if self.target.shape != (len(gripper.fingers),):
+        if self.target.shape != matrices.D_target.shape:
             raise InvalidInputError(
-                "target", expected=f"shape ({len(gripper.fingers)},)", got=self.target.shape
+                "target", expected=f"shape {matrices.D_target.shape}", got=self.target.shape
             )
-        self.limit, self.digits = limit, digits
-        self.matrices = controller_matrices(
-            gripper,
-            inverse,
-            filter,
-            period=period,
-            feedback_filter=feedback_filter,
-            delay_samples=delay_samples,
-            method=method,
-        )
         self.reset()
 
     def reset(self) -> None:

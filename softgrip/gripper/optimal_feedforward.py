@@ -7,13 +7,15 @@ that any command sequence of that period can reach.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import permutations
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 from scipy.optimize import linprog
 
 from softgrip.arrays import Floats, check_positive, read_only
+from softgrip.checks import check_fields
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.gripper_batch import GripperBatch, Trial
 from softgrip.gripper.monte_carlo import simulate
@@ -44,150 +46,150 @@ class OptimalFeedforward:
     gap: float
 
 
-def optimal_feedforward(
-    gripper: Gripper,
-    target: tuple[float, ...],
-    *,
-    settling: float,
-    limit: float,
-    band: float = 0.02,
-    duration: float = 3.0,
-    period: float = 0.1,
-    points: int = 10,
-) -> OptimalFeedforward:
-    """Return the command that keeps the fingers together best, and settles them in time.
+@final
+@dataclass(frozen=True)
+class FeedforwardProgram:
+    """The linear program: commands that keep the fingers together best, and settle them in time.
 
-    Args:
+    Attributes:
         gripper: The fingers; the command is open loop, so what they are is taken as known.
         target: Angle of each finger, rad, a multiple of the velocity gains: one pump cannot hold
             others.
-        settling: From which on every finger stays within the band until the end, s, a multiple of
-            the period.
         limit: Largest absolute command, > 0.
         band: Half width as a share of each target, between 0 and 1.
-        duration: s, longer than `settling`; then the pump is at rest, and where the fingers end is
-            in the band too.
+        duration: s, longer than what is asked to settle; then the pump is at rest, and where the
+            fingers end is in the band too.
         period: Time between commands, s, > 0.
         points: Points a period at which the fingers are looked at, >= 1. Between the 10 of a period
             of 100 ms they are up to 0.05 % farther apart, and leave the band by 0.0002 of the
             target.
 
     Raises:
-        InvalidInputError: If an argument is outside its range, the target cannot be held, or no
-            command within the limit settles that early.
+        InvalidInputError: If a number is outside its range, or the target cannot be held.
 
     >>> from softgrip.gripper.plant import PRINTED
     >>> target = tuple(0.35 * PRINTED.velocity_gains)
-    >>> found = optimal_feedforward(PRINTED, target, settling=2.0, limit=1.0)
+    >>> found = FeedforwardProgram(PRINTED, target, limit=1.0).settled_by(2.0)
     >>> 0 < found.worst_sync < 0.05, abs(found.gap) < 1e-9
     (True, True)
     """
-    check_positive(settling=settling, duration=duration, period=period)
-    first = round(settling / period)
-    if not (first < round(duration / period) and np.isclose(settling, first * period)):
-        raise InvalidInputError(
-            "settling", expected=f"a multiple of {period:g} s below {duration:g} s", got=settling
+
+    gripper: Gripper
+    target: tuple[float, ...]
+    limit: float
+    band: float = 0.02
+    duration: float = 3.0
+    period: float = 0.1
+    points: int = 10
+
+    def __post_init__(self) -> None:
+        check_fields(self, other=("gripper", "target"))
+        if project(self.gripper, self.target).share > 1e-6:
+            gains = self.gripper.velocity_gains
+            raise InvalidInputError("target", expected=f"a multiple of {gains}", got=self.target)
+
+    def settled_by(self, settling: float) -> OptimalFeedforward:
+        """Return the best command with which every finger stays within the band from a time on.
+
+        Args:
+            settling: s, a multiple of the period, > 0 and below the duration.
+
+        Raises:
+            InvalidInputError: If it is none, or no command within the limit settles that early.
+        """
+        check_positive(settling=settling)
+        first = round(settling / self.period)
+        if not (first < self._pulse.periods and np.isclose(settling, first * self.period)):
+            raise InvalidInputError(
+                "settling",
+                expected=f"a multiple of {self.period:g} s below {self.duration:g} s",
+                got=settling,
+            )
+        if (found := self._solve(settling)) is None:
+            raise InvalidInputError(
+                "settling",
+                expected=f"a time within reach of a limit of {self.limit:g}",
+                got=settling,
+            )
+        return found
+
+    def trade_off(self, latest: float = 2.0) -> Iterator[OptimalFeedforward]:
+        """Yield the best command for each settling time up to a last one, s, below the duration.
+
+        Yields:
+            OptimalFeedforward: One a period; the first settles as early as any held command within
+                the limit can. None if nothing settles by then.
+        """
+        times = self.period * np.arange(1, round(latest / self.period) + 1)
+        found = (self._solve(float(time)) for time in times.round(9))
+        yield from (best for best in found if best is not None)
+
+    @cached_property
+    def _pulse(self) -> Trial:
+        first = (1.0, *[0.0] * (round(self.duration / self.period) - 1))
+        step = self.period / self.points
+        return Trial(self.target, self.duration, self.period, step, feedforward=first)
+
+    @cached_property
+    def _progress(self) -> Floats:
+        """The share of its target that each finger covers, per unit of each command."""
+        pulse = self._pulse
+        found = simulate(GripperBatch.of(self.gripper), None, pulse, keep="trajectories").angles
+        assert found is not None
+        each = found[0, :, 1:] / np.array(self.target)[:, None]
+        late = np.zeros((*each.shape, pulse.periods))
+        for k in range(pulse.periods):
+            start = k * pulse.points_a_period
+            late[:, start:, k] = each[:, : pulse.points - start]
+        return late
+
+    def _solve(self, settling: float) -> OptimalFeedforward | None:
+        pulse, progress, target = self._pulse, self._progress, np.array(self.target)
+        limit, band, gain = self.limit, self.band, self.gripper.velocity_gains[0]
+        step = pulse.plant_step
+        settled = step * np.arange(1, pulse.points + 1) > settling - step / 2
+        apart = np.concatenate(
+            [progress[i] - progress[j] for i, j in permutations(range(len(target)), 2)]
         )
-    pulse = Trial(target, duration, period, period / points, feedforward=_first(duration / period))
-    found = _solve(gripper, pulse, settling, limit, band)
-    if found is None:
-        raise InvalidInputError(
-            "settling", expected=f"a time within reach of a limit of {limit:g}", got=settling
+        # The last row is where the fingers end once the pump is at rest.
+        rest = np.full((1, pulse.periods), pulse.period * gain / target[0])
+        there = np.concatenate([*progress[:, settled], rest])
+        # Variables: commands, the difference to make small, the commands' changes, from 0 and to 0.
+        n = pulse.periods
+        change = np.eye(n + 1, n) - np.eye(n + 1, n, k=-1)
+        own, none = -np.ones((len(apart), 1)), np.zeros((len(apart), n + 1))
+        free, steps = (
+            np.zeros((len(there), n + 2)),
+            np.hstack([np.zeros((n + 1, 1)), -np.eye(n + 1)]),
         )
-    return found
+        A = np.block(
+            [[apart, own, none], [there, free], [-there, free], [change, steps], [-change, steps]]
+        )
+        b = np.repeat(
+            [0.0, 1 + band, band - 1, 0.0], [len(apart), len(there), len(there), 2 * len(change)]
+        )
+        low = np.repeat([-limit, 0.0], [n, n + 2])
+        high = np.repeat([limit, np.inf], [n, n + 2])
 
+        def solve(cost: Floats, high: Floats) -> Any:
+            return linprog(cost, A, b, bounds=np.stack([low, high], axis=1), method="highs")
 
-def trade_off(
-    gripper: Gripper,
-    target: tuple[float, ...],
-    *,
-    limit: float,
-    latest: float = 2.0,
-    band: float = 0.02,
-    duration: float = 3.0,
-    period: float = 0.1,
-    points: int = 10,
-) -> Iterator[OptimalFeedforward]:
-    """Yield the best command for each settling time, from the least that is possible on.
-
-    Args:
-        latest: Last settling time, s, below `duration`.
-        gripper, target, limit, band, duration, period, points: As for `optimal_feedforward`.
-
-    Yields:
-        OptimalFeedforward: One a period; the first settles as early as any held command within the
-            limit can. None if nothing settles by `latest`.
-    """
-    pulse = Trial(target, duration, period, period / points, feedforward=_first(duration / period))
-    times = period * np.arange(1, round(latest / period) + 1)
-    found = (_solve(gripper, pulse, float(time), limit, band) for time in times.round(9))
-    yield from (best for best in found if best is not None)
-
-
-def _first(periods: float) -> tuple[float, ...]:
-    return (1.0, *[0.0] * (round(periods) - 1))
-
-
-def _solve(
-    gripper: Gripper, pulse: Trial, settling: float, limit: float, band: float
-) -> OptimalFeedforward | None:
-    check_positive(limit=limit, band=band)
-    target, gains = np.array(pulse.target), gripper.velocity_gains
-    if project(gripper, target).share > 1e-6:
-        raise InvalidInputError("target", expected=f"a multiple of {gains}", got=pulse.target)
-    progress = _progress(gripper, pulse)
-    settled = pulse.plant_step * np.arange(1, pulse.points + 1) > settling - pulse.plant_step / 2
-    apart = np.concatenate(
-        [progress[i] - progress[j] for i, j in permutations(range(len(target)), 2)]
-    )
-    # The last row is where the fingers end once the pump is at rest.
-    rest = np.full((1, pulse.periods), pulse.period * gains[0] / target[0])
-    there = np.concatenate([*progress[:, settled], rest])
-    # Variables: commands, the difference to make small, and the commands' changes, from 0 and to 0.
-    n = pulse.periods
-    change = np.eye(n + 1, n) - np.eye(n + 1, n, k=-1)
-    own, none = -np.ones((len(apart), 1)), np.zeros((len(apart), n + 1))
-    free, steps = np.zeros((len(there), n + 2)), np.hstack([np.zeros((n + 1, 1)), -np.eye(n + 1)])
-    A = np.block(
-        [[apart, own, none], [there, free], [-there, free], [change, steps], [-change, steps]]
-    )
-    b = np.repeat(
-        [0.0, 1 + band, band - 1, 0.0], [len(apart), len(there), len(there), 2 * len(change)]
-    )
-    low = np.repeat([-limit, 0.0], [n, n + 2])
-    high = np.repeat([limit, np.inf], [n, n + 2])
-
-    def solve(cost: Floats, high: Floats) -> Any:
-        return linprog(cost, A, b, bounds=np.stack([low, high], axis=1), method="highs")
-
-    found = solve(np.eye(2 * n + 2)[n], high)
-    if found.status == 2:
-        return None
-    if found.status != 0:
-        raise InvalidInputError("limit, band", expected="a solvable program", got=found.message)
-    marginals = found.upper.marginals - found.lower.marginals
-    dual = b @ found.ineqlin.marginals + limit * marginals[:n].sum()
-    # Many commands are as good: of these the one that changes least, not an arbitrary corner.
-    high[n] = found.fun * (1 + 1e-6) + 1e-9
-    calm = solve(np.repeat([0.0, 1.0], n + 1), high)
-    command = np.asarray((calm if calm.status == 0 else found).x[:n])
-    return OptimalFeedforward(
-        read_only(pulse.period * np.arange(n)),
-        read_only(command),
-        read_only((progress @ command) * target[:, None]),
-        settling,
-        float(found.fun),
-        float(found.fun - dual),
-    )
-
-
-def _progress(gripper: Gripper, pulse: Trial) -> Floats:
-    """Return the share of its target that each finger covers, per unit of each command."""
-    found = simulate(GripperBatch.of(gripper), None, pulse, keep="trajectories").angles
-    assert found is not None
-    each = found[0, :, 1:] / np.array(pulse.target)[:, None]
-    late = np.zeros((*each.shape, pulse.periods))
-    for k in range(pulse.periods):
-        start = k * pulse.points_a_period
-        late[:, start:, k] = each[:, : pulse.points - start]
-    return late
+        found = solve(np.eye(2 * n + 2)[n], high)
+        if found.status == 2:
+            return None
+        if found.status != 0:
+            raise InvalidInputError("limit, band", expected="a solvable program", got=found.message)
+        marginals = found.upper.marginals - found.lower.marginals
+        dual = b @ found.ineqlin.marginals + limit * marginals[:n].sum()
+        # Many commands are as good: of these the one that changes least, not an arbitrary corner.
+        high[n] = found.fun * (1 + 1e-6) + 1e-9
+        calm = solve(np.repeat([0.0, 1.0], n + 1), high)
+        command = np.asarray((calm if calm.status == 0 else found).x[:n])
+        return OptimalFeedforward(
+            read_only(pulse.period * np.arange(n)),
+            read_only(command),
+            read_only((progress @ command) * target[:, None]),
+            settling,
+            float(found.fun),
+            float(found.fun - dual),
+        )

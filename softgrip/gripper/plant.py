@@ -5,6 +5,7 @@ from typing import final
 
 import control
 import numpy as np
+from scipy.signal import cont2discrete
 
 from softgrip.arrays import Floats, check_positive
 from softgrip.control.lqr import integrating_finger
@@ -145,6 +146,17 @@ def state_space(gripper: Gripper) -> control.StateSpace:
     return control.ss(A, B, C, 0)
 
 
+def sampled(
+    system: control.StateSpace, period: float, method: str = "zoh"
+) -> tuple[Floats, Floats, Floats, Floats]:
+    """Return A, B, C and D of a system that is sampled each period, s.
+
+    `method` is that of `scipy.signal.cont2discrete`, by default exact for a held input.
+    """
+    A, B, C, D, _ = cont2discrete((system.A, system.B, system.C, system.D), period, method)
+    return A, B, C, D
+
+
 @dataclass(frozen=True)
 class Structure:
     """What Assumption 2 asks of a realization.
@@ -183,15 +195,8 @@ def structure(system: control.StateSpace) -> Structure:
     controllable = np.linalg.matrix_rank(control.ctrb(A, system.B))
     observable = np.linalg.matrix_rank(control.obsv(A, system.C))
     # With one input P(s) is a column: it loses rank only where all its elements vanish at once.
-    zeros = common_zeros(system)
-    return Structure(len(poles), int(controllable), int(observable), poles, zeros)
-
-
-def common_zeros(system: control.StateSpace, tolerance: float = 1e-6) -> Floats:
-    """Return the zeros that all outputs of a system with one input have in common, 1/s."""
     first, *others = (
         np.asarray(control.ss(system.A, system.B, row[None], 0).zeros()) for row in system.C
     )
-    return np.array(
-        [z for z in first if all(np.any(np.abs(z - other) < tolerance) for other in others)]
-    )
+    common = [z for z in first if all(np.any(np.abs(z - other) < 1e-6) for other in others)]
+    return Structure(len(poles), int(controllable), int(observable), poles, np.array(common))

@@ -6,7 +6,7 @@ import numpy as np
 
 from softgrip.arrays import Floats
 from softgrip.gripper.gripper_loop import GripperRun, run_gripper
-from softgrip.gripper.internal_model import PERIOD, InternalModelController
+from softgrip.gripper.internal_model import PERIOD, InternalModelController, controller_matrices
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.plant import PRINTED
 from softgrip.gripper.reach import project
@@ -49,12 +49,8 @@ def run_printed(
         period, duration: s.
         **conditions: As of `run_gripper`: noise, push, limit, delay.
     """
-    controller = InternalModelController(
-        PRINTED,
-        equal_targets(angle),
-        mean_inverse(PRINTED),
-        filter_state_space(*FILTERS[target_loop]),
-        period=period,
-    )
+    low_pass = filter_state_space(*FILTERS[target_loop])
+    matrices = controller_matrices(PRINTED, mean_inverse(PRINTED), low_pass, period=period)
+    controller = InternalModelController(matrices, equal_targets(angle))
     points = max(round(period / FINE), 1)
     return run_gripper(PRINTED, controller, duration=duration, points=points, **conditions)

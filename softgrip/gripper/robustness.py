@@ -13,12 +13,11 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import block_diag
-from scipy.signal import cont2discrete
 
 from softgrip.arrays import Floats
 from softgrip.gripper.internal_model import ControllerMatrices
 from softgrip.gripper.inversion import Complex, LeftInverse, filtered_inverse
-from softgrip.gripper.plant import FingerDynamics, Gripper, state_space
+from softgrip.gripper.plant import FingerDynamics, Gripper, sampled, state_space
 from softgrip.gripper.uncertainty import DAMPING_BOUND, STIFFNESS_BOUND
 
 
@@ -80,8 +79,7 @@ def tolerated_uncertainty(gripper: Gripper, feedback: control.StateSpace) -> flo
         float: A share of each finger's response, on a grid of 2,000 frequencies up to half the
             sampling frequency.
     """
-    system = state_space(gripper)
-    A, B, C, *_ = cont2discrete((system.A, system.B, system.C, system.D), feedback.dt, "zoh")
+    A, B, C, _ = sampled(state_space(gripper), feedback.dt)
     z = np.exp(1j * np.geomspace(1e-3, np.pi, 2000))
     column = np.asarray(control.ss(A, B, C, 0, feedback.dt)(z)).reshape(len(C), -1)
     row = np.asarray(feedback(z)).reshape(len(C), -1)
@@ -120,10 +118,7 @@ def sampled_stability(
         real: The real fingers.
         delay_samples: Periods by which the command comes late, >= 0.
     """
-    system = state_space(real)
-    A_p, B_p, C_p, *_ = cont2discrete(
-        (system.A, system.B, system.C, system.D), matrices.period, "zoh"
-    )
+    A_p, B_p, C_p, _ = sampled(state_space(real), matrices.period)
     if delay_samples:
         size = len(A_p)
         joined = block_diag(A_p, np.eye(delay_samples, k=1))

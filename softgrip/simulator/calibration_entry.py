@@ -1,6 +1,7 @@
 """One line of the calibration of the simulated rig, and the lines of a finger."""
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -13,7 +14,9 @@ from softgrip.simulator.calibration import (
 )
 from softgrip.simulator.laws import settled_torque
 from softgrip.simulator.parameters import FingerParameters, RigParameters
-from softgrip.units import DEG
+from softgrip.units import DEG, ML, MM
+
+NAN = float("nan")
 
 
 @dataclass(frozen=True)
@@ -61,31 +64,43 @@ def swing(rig: RigParameters) -> float:
     return (soft - hard) / 2
 
 
-def printed(
-    use: Literal["calibrated", "checked"],
-    where: str,
-    what: str,
-    text: str,
-    unit: str,
-    parameter: str,
-    value: float,
-    given: float,
+def _in_unit(value: float, unit: str) -> float:
+    """Return a value in SI in the unit of a line."""
+    if unit == "%":
+        return 100 * value
+    return 1e3 * value if unit == "mV" else value / {"mm": MM, "mL": ML, "deg": DEG}.get(unit, 1)
+
+
+def _printed(
+    use: Literal["calibrated", "checked"], place: str, quantity: str, printed: str, unit: str,
+    parameter: str, value: float, rig: float,
+) -> Entry:  # fmt: skip
+    residual = round(rig - float(printed), 9) + 0.0  # no minus zero
+    return Entry(use, place, quantity, printed, unit, parameter, value, rig, residual)
+
+
+calibrated = partial(_printed, "calibrated")
+"""The line of a printed string that set a parameter; arguments as the attributes of `Entry`."""
+
+
+def checked(place: str, quantity: str, printed: str, unit: str, rig: float) -> Entry:
+    """Return the line of a printed string that set nothing; as `calibrated`."""
+    return _printed("checked", place, quantity, printed, unit, "", NAN, rig)
+
+
+def assumed(
+    quantity: str, unit: str, parameter: str, value: float, rig: float | None = None
 ) -> Entry:
-    """Return the line of a printed string; arguments as the attributes of `Entry`."""
-    residual = round(given - float(text), 9) + 0.0  # no minus zero
-    return Entry(use, where, what, text, unit, parameter, value, given, residual)
-
-
-def assumed(what: str, unit: str, parameter: str, value: float, given: float) -> Entry:
-    """Return the line of an assumption; arguments as the attributes of `Entry`."""
-    return Entry("assumed", "", what, "", unit, parameter, value, given, float("nan"))
+    """Return the line of an assumption; without `rig` the value itself is told, in the unit."""
+    told = _in_unit(value, unit) if rig is None else rig
+    return Entry("assumed", "", quantity, "", unit, parameter, value, told, NAN)
 
 
 def of_finger(
-    name: str, rig: RigParameters, angle: str, frequency: str, power: str
+    rig: RigParameters, angle: str, frequency: str, power: str, *, name: str = ""
 ) -> tuple[Entry, ...]:
-    """Return the lines of a finger other than Design 1, from its printed strings."""
-    finger, spread, own = rig.finger, rig.spread, name.lower().replace(" ", "_")
+    """Return the lines of a finger from its printed strings; `name` that of all but Design 1."""
+    finger, spread = rig.finger, rig.spread
     pole = small_signal_poles(finger, OPERATING_ANGLE)[0]
     rows = (
         ("Figure 3.10", "settled angle at 0.15 MPa", angle, "deg", "finger.stiffness",
@@ -99,7 +114,8 @@ def of_finger(
         ("Section 5.4", "run-to-run RMS (2 to 3) taken at 75 deg", "2.5", "deg",
          "spread.stiffness", spread.stiffness, swing(rig) / DEG),
     )  # fmt: skip
+    words, own = (f"{name}: ", f"{name.lower().replace(' ', '_')}.") if name else ("", "")
     return tuple(
-        printed("calibrated", where, f"{name}: {what}", text, unit, f"{own}.{sets}", value, given)
+        calibrated(where, words + what, text, unit, own + sets, value, given)
         for where, what, text, unit, sets, value, given in rows
     )

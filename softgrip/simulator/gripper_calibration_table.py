@@ -8,7 +8,7 @@ import numpy as np
 
 from softgrip.gripper.uncertainty import parameter_bounds
 from softgrip.kept import Kept
-from softgrip.simulator.calibration_entry import Entry, assumed, printed
+from softgrip.simulator.calibration_entry import NAN, Entry, assumed, calibrated, checked
 from softgrip.simulator.calibration_table import NOTES
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.gripper_calibration import step_identifies
@@ -24,7 +24,7 @@ from softgrip.simulator.gripper_parameters import (
     printed_gripper,
     run_to_run,
 )
-from softgrip.units import DEG, ML, MM
+from softgrip.units import DEG, ML
 
 FILE = "calibration/gripper.csv"
 
@@ -41,31 +41,30 @@ def entries() -> tuple[Entry, ...]:
     for k, (side, angle, stiff, damped) in enumerate(sides):
         finger = calm.fingers[k]
         rows += [
-            printed("calibrated", "Section 6.4", f"{side}: angle in open loop", angle, "deg",
-                    f"fingers[{k}].stiffness", finger.stiffness, float(angles[k, 0]) / DEG),
-            printed("calibrated", "Eq. (6.26)", f"{side}: identified stiffness by mass", stiff,
-                    "1/s^2", f"fingers[{k}].inertia", INERTIA[k], found[k][0].stiffness),
-            printed("calibrated", "Eq. (6.26)", f"{side}: identified damping by mass", damped,
-                    "1/s", f"fingers[{k}].damping", DAMPING[k], found[k][0].damping),
+            calibrated("Section 6.4", f"{side}: angle in open loop", angle, "deg",
+                       f"fingers[{k}].stiffness", finger.stiffness, float(angles[k, 0]) / DEG),
+            calibrated("Eq. (6.26)", f"{side}: identified stiffness by mass", stiff, "1/s^2",
+                       f"fingers[{k}].inertia", INERTIA[k], found[k][0].stiffness),
+            calibrated("Eq. (6.26)", f"{side}: identified damping by mass", damped, "1/s",
+                       f"fingers[{k}].damping", DAMPING[k], found[k][0].damping),
         ]  # fmt: skip
     return (
         *rows,
-        printed("calibrated", "Section 6.4", "seven runs: largest deviation of C_n itself",
-                "14.3", "%", "spread.damping", spread.damping, 100 * largest * spread.damping),
-        printed("calibrated", "Section 6.4", "seven runs: largest deviation of K_n at one pressure",
-                "5.9", "%", "spread.stiffness", spread.stiffness,
-                100 * largest * spread.stiffness / n),
-        printed("checked", "Section 6.4", "seven runs: the same of C_n, identified",
-                "14.3", "%", "", float("nan"), 100 * damping),
-        printed("checked", "Section 6.4", "seven runs: the same of K_n, identified",
-                "5.9", "%", "", float("nan"), 100 * stiffness),
-        printed("calibrated", "Section 6.3", "syringe", "150", "mL", "pump.syringe_volume",
-                SYRINGE, SYRINGE / ML),
-        assumed("cross-section of the syringe", "m^2", "pump.area", AREA, AREA),
-        assumed("pressure at which the angles in open loop are taken", "Pa", "",
-                COMMON_PRESSURE, COMMON_PRESSURE),
-        assumed("travel of the plunger in the open-loop step", "mm", "", TRAVEL, TRAVEL / MM),
-        assumed("inertia of the right finger over that of the left", "", "", float("nan"),
+        calibrated("Section 6.4", "seven runs: largest deviation of C_n itself", "14.3", "%",
+                   "spread.damping", spread.damping, 100 * largest * spread.damping),
+        calibrated("Section 6.4", "seven runs: largest deviation of K_n at one pressure", "5.9",
+                   "%", "spread.stiffness", spread.stiffness,
+                   100 * largest * spread.stiffness / n),
+        checked("Section 6.4", "seven runs: the same of C_n, identified", "14.3", "%",
+                100 * damping),
+        checked("Section 6.4", "seven runs: the same of K_n, identified", "5.9", "%",
+                100 * stiffness),
+        calibrated("Section 6.3", "syringe", "150", "mL", "pump.syringe_volume", SYRINGE,
+                   SYRINGE / ML),
+        assumed("cross-section of the syringe", "m^2", "pump.area", AREA),
+        assumed("pressure at which the angles in open loop are taken", "Pa", "", COMMON_PRESSURE),
+        assumed("travel of the plunger in the open-loop step", "mm", "", TRAVEL),
+        assumed("inertia of the right finger over that of the left", "", "", NAN,
                 float(np.divide(*INERTIA[::-1]))),
     )  # fmt: skip
 

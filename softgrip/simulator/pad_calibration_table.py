@@ -7,12 +7,12 @@
 from scipy.optimize import brentq
 
 from softgrip.kept import Kept
-from softgrip.simulator.calibration_entry import Entry, assumed, printed
+from softgrip.simulator.calibration_entry import Entry, assumed, checked
 from softgrip.simulator.calibration_table import NOTES
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.tactile.element import compliance
 from softgrip.tactile.element_sensitivity import CEILING, resistance
-from softgrip.units import DEG, MM
+from softgrip.units import MM
 
 FILE = "calibration/pad.csv"
 NOISES = 3.0
@@ -42,43 +42,34 @@ def least_force(pad: PadParameters) -> float:
 def entries() -> tuple[Entry, ...]:
     """List what is assumed of the pad, and two printed numbers beside what it gives."""
     pad = PadParameters()
-    hour = 3600.0
+    places, hour = pad.layout.places, 3600.0
+
+    def own(quantity: str, unit: str, name: str, rig: float | None = None) -> Entry:
+        return assumed(quantity, unit, name, getattr(pad, name), rig)
+
     return (
-        printed("checked", "Section 2.2", "force that brings an element to its end (0.1 to 0.2)",
-                "0.2", "N", "", float("nan"), ceiling_force(pad)),
-        printed("checked", "Section 2.2", "least force that a pyramid feels", "0.01", "N", "",
-                float("nan"), least_force(pad)),
+        checked("Section 2.2", "force that brings an element to its end (0.1 to 0.2)", "0.2", "N",
+                ceiling_force(pad)),
+        checked("Section 2.2", "least force that a pyramid feels", "0.01", "N", least_force(pad)),
         assumed("pitch of the elements in a row", "mm", "layout",
-                float(pad.layout.places[1, 0] - pad.layout.places[0, 0]),
-                float(pad.layout.places[1, 0] - pad.layout.places[0, 0]) / MM),
-        assumed("pitch of the rows", "mm", "layout",
-                float(pad.layout.places[0, 1] - pad.layout.places[3, 1]),
-                float(pad.layout.places[0, 1] - pad.layout.places[3, 1]) / MM),
+                float(places[1, 0] - places[0, 0])),
+        assumed("pitch of the rows", "mm", "layout", float(places[0, 1] - places[3, 1])),
         assumed("width of a pyramid's top", "mm", "element.cut", pad.element.cut,
                 pad.element.cut * pad.element.width / MM),
-        assumed("thickness of the cover", "mm", "cover", pad.cover, pad.cover / MM),
-        assumed("side of the square that presses a pyramid", "mm", "spread", pad.spread,
-                2 * pad.spread / MM),
-        assumed("reference of the amplifier", "V", "reference", pad.reference, pad.reference),
-        assumed("resistor of the amplifier", "Ohm", "gain_resistor", pad.gain_resistor,
-                pad.gain_resistor),
-        assumed("spread of the resistance at rest", "%", "rest_spread", pad.rest_spread,
-                100 * pad.rest_spread),
-        assumed("spread of the gain", "%", "gain_spread", pad.gain_spread, 100 * pad.gain_spread),
-        assumed("spread of the stiffness", "%", "stiffness_spread", pad.stiffness_spread,
-                100 * pad.stiffness_spread),
-        assumed("spread of the height", "mm", "height_spread", pad.height_spread,
-                pad.height_spread / MM),
-        assumed("repeatability of the resistance change", "%", "repeatability", pad.repeatability,
-                100 * pad.repeatability),
-        assumed("noise of a voltage", "mV", "noise", pad.noise, 1e3 * pad.noise),
-        assumed("drift of the resistance at rest in an hour", "%", "drift", pad.drift,
-                100 * hour * pad.drift),
-        assumed("tilt of what is held", "deg", "tilt", pad.tilt, pad.tilt / DEG),
-        assumed("force that halves the resistance of the force layer", "N", "layer_force",
-                pad.layer_force, pad.layer_force),
-        assumed("gain of the force layer's amplifier", "", "layer_gain", pad.layer_gain,
-                pad.layer_gain),
+        own("thickness of the cover", "mm", "cover"),
+        own("side of the square that presses a pyramid", "mm", "spread", 2 * pad.spread / MM),
+        own("reference of the amplifier", "V", "reference"),
+        own("resistor of the amplifier", "Ohm", "gain_resistor"),
+        own("spread of the resistance at rest", "%", "rest_spread"),
+        own("spread of the gain", "%", "gain_spread"),
+        own("spread of the stiffness", "%", "stiffness_spread"),
+        own("spread of the height", "mm", "height_spread"),
+        own("repeatability of the resistance change", "%", "repeatability"),
+        own("noise of a voltage", "mV", "noise"),
+        own("drift of the resistance at rest in an hour", "%", "drift", 100 * hour * pad.drift),
+        own("tilt of what is held", "deg", "tilt"),
+        own("force that halves the resistance of the force layer", "N", "layer_force"),
+        own("gain of the force layer's amplifier", "", "layer_gain"),
     )  # fmt: skip
 
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softgrip.arrays import Floats, check_positive
-from softgrip.errors import InvalidInputError
+from softgrip.arrays import Floats
+from softgrip.checks import check_fields
 from softgrip.simulator.pad import Pad
 from softgrip.simulator.pad_contact import bed_points, force_at_depth, spring_stiffness
 from softgrip.simulator.pad_objects import PadObject
@@ -45,12 +45,7 @@ class GraspGripper:
     plain_modulus: float = STATED_MODULUS
 
     def __post_init__(self) -> None:
-        check_positive(
-            lag=self.lag, speed=self.speed, resolution=self.resolution,
-            plain_thickness=self.plain_thickness, plain_modulus=self.plain_modulus,
-        )  # fmt: skip
-        if not (self.delay >= 0 and self.opening >= 0):
-            raise InvalidInputError("delay, opening", expected=">= 0", got=self)
+        check_fields(self, zero=("delay", "opening"))
 
 
 @dataclass(frozen=True, eq=False)

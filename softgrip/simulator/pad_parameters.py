@@ -1,9 +1,8 @@
 """What the simulated pad is made of. No measurement of a pad is printed that could calibrate it."""
 
-from dataclasses import dataclass, field, fields
-from math import isfinite
+from dataclasses import dataclass, field
 
-from softgrip.errors import InvalidInputError
+from softgrip.checks import check_fields
 from softgrip.tactile.element import STATED_MODULUS, Element
 from softgrip.tactile.pad_layout import THREE_TWO_THREE, PadLayout
 from softgrip.units import MM
@@ -70,11 +69,4 @@ class PadParameters:
     layer_gain: float = 2.5
 
     def __post_init__(self) -> None:
-        for entry in fields(self):
-            value = getattr(self, entry.name)
-            if isinstance(value, PadLayout | Element):
-                continue
-            zero = entry.name in ZERO_ALLOWED
-            if not isfinite(value) or value < 0 or (value == 0 and not zero):
-                sign = ">=" if zero else ">"
-                raise InvalidInputError(entry.name, expected=f"finite, {sign} 0", got=value)
+        check_fields(self, zero=ZERO_ALLOWED, other=("layout", "element"))

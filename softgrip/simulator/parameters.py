@@ -1,19 +1,11 @@
 """What the simulated rig is made of: pump, gas, finger, sensors, and their spread over runs."""
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 
-from softgrip.arrays import check_positive
-from softgrip.checks import check_not_negative
+from softgrip.checks import check_fields
 from softgrip.errors import InvalidInputError
 from softgrip.pump.gas import ATMOSPHERE
 from softgrip.units import DEG, ML, MM, PSI, REV
-
-
-def _check(parameters: object, *, zero: tuple[str, ...] = ()) -> None:
-    """Raise unless each number is finite and above zero, or, for those named, not below it."""
-    for entry in fields(parameters):  # type: ignore[arg-type]
-        check = check_not_negative if entry.name in zero else check_positive
-        check(**{entry.name: getattr(parameters, entry.name)})
 
 
 @dataclass(frozen=True)
@@ -35,7 +27,7 @@ class PumpParameters:
     acceleration_limit: float = 50 * REV
 
     def __post_init__(self) -> None:
-        _check(self)
+        check_fields(self)
 
     @property
     def stroke(self) -> float:
@@ -66,7 +58,7 @@ class GasParameters:
     leakage: float = 7e-13
 
     def __post_init__(self) -> None:
-        _check(self, zero=("leakage", "dead_volume"))
+        check_fields(self, zero=("leakage", "dead_volume"))
 
 
 @dataclass(frozen=True)
@@ -101,7 +93,9 @@ class FingerParameters:
     friction_rate: float = 0.05
 
     def __post_init__(self) -> None:
-        _check(self, zero=("damping", "ballooning", "memory", "friction", "torque_per_pressure"))
+        check_fields(
+            self, zero=("damping", "ballooning", "memory", "friction", "torque_per_pressure")
+        )
         if self.fractional_power < 1:
             raise InvalidInputError("fractional_power", expected=">= 1", got=self.fractional_power)
         if len(self.memory) != len(self.memory_time):
@@ -137,7 +131,7 @@ class SensorParameters:
     bits: int = 10
 
     def __post_init__(self) -> None:
-        _check(self, zero=("pressure_noise", "angle_noise", "low_count"))
+        check_fields(self, zero=("pressure_noise", "angle_noise", "low_count"))
         if not self.low_count < self.high_count <= self.largest_count:
             raise InvalidInputError(
                 "low_count, high_count",
@@ -165,7 +159,7 @@ class Spread:
     leakage: float = 0.0
 
     def __post_init__(self) -> None:
-        _check(self, zero=("stiffness", "damping", "leakage"))
+        check_fields(self, zero=("stiffness", "damping", "leakage"))
 
 
 @dataclass(frozen=True)

@@ -44,8 +44,7 @@ def ours(pairs: int, keep: Keep = "metrics") -> Outcome | None:
 def baseline(pairs: int) -> np.ndarray:
     """Return the angles of the first pairs, a call of `forced_response` a pair and period."""
     batch = draw_grippers(PRINTED, pairs, seed=1)
-    made = (mean_inverse(PRINTED), filter_state_space(*SLOW))
-    controller = InternalModelController(PRINTED, TRIAL.target, *made, limit=TRIAL.limit)
+    controller = InternalModelController(loop(), TRIAL.target, limit=TRIAL.limit)
     found = []
     for number in range(pairs):
         controller.reset()

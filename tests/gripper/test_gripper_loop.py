@@ -7,7 +7,7 @@ from scipy.signal import cont2discrete
 
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.gripper_loop import noise_gain, run_gripper
-from softgrip.gripper.internal_model import InternalModelController
+from softgrip.gripper.internal_model import InternalModelController, controller_matrices
 from softgrip.gripper.inversion import filtered_inverse, mean_inverse
 from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, state_space
 from softgrip.gripper.reach import project
@@ -16,7 +16,8 @@ from softgrip.gripper.synchronization import synchronization_error
 from softgrip.units import DEG
 
 TARGET = project(PRINTED, [np.pi / 3] * 2).reached
-LOOP = InternalModelController(PRINTED, TARGET, mean_inverse(PRINTED), filter_state_space(*FAST))
+MATRICES = controller_matrices(PRINTED, mean_inverse(PRINTED), filter_state_space(*FAST))
+LOOP = InternalModelController(MATRICES, TARGET)
 
 
 def test_noise_gain_is_that_of_the_spectrum():

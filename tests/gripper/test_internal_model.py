@@ -16,6 +16,7 @@ from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space, low_
 TARGET = np.array([0.95, 1.12])
 REAL = Gripper((FingerDynamics(2.9, 3.4, 7.5), FingerDynamics(2.3, 3.2, 8.0)))
 H, OTHER = filter_state_space(*FAST), filter_state_space(*SLOW)
+PRINTED_LOOP = controller_matrices(PRINTED, mean_inverse(PRINTED), H)
 
 
 class Block:
@@ -67,17 +68,17 @@ def run(controller, samples=30):
     [(None, {}), (OTHER, {}), (None, {"limit": 20.0}), (OTHER, {"delay": 2})],
 )
 def test_controller_is_the_block_diagram(make, back, conditions):
-    named = {"delay_samples" if k == "delay" else k: v for k, v in conditions.items()}
-    found = run(
-        InternalModelController(PRINTED, TARGET, make(PRINTED), H, feedback_filter=back, **named)
+    delay, limit = conditions.get("delay", 0), conditions.get("limit", np.inf)
+    matrices = controller_matrices(
+        PRINTED, make(PRINTED), H, feedback_filter=back, delay_samples=delay
     )
+    found = run(InternalModelController(matrices, TARGET, limit=limit))
     expected = blocks(make(PRINTED), H, back or H, **conditions)
     assert found == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
 
 
 def test_linear_matrices_give_the_same_commands():
-    matrices = controller_matrices(PRINTED, mean_inverse(PRINTED), H)
-    whole, plant = matrices.linear(), Block(state_space(REAL), "zoh")
+    whole, plant = PRINTED_LOOP.linear(), Block(state_space(REAL), "zoh")
     x, found = np.zeros(whole.nstates), []
     for _ in range(20):
         inputs = np.concatenate([plant.output(0), TARGET])
@@ -85,13 +86,13 @@ def test_linear_matrices_give_the_same_commands():
         x = whole.A @ x + whole.B @ inputs
         plant.step(u)
         found.append(u.item())
-    controller = InternalModelController(PRINTED, TARGET, mean_inverse(PRINTED), H)
+    controller = InternalModelController(PRINTED_LOOP, TARGET)
     assert found == pytest.approx(run(controller, 20))
 
 
 def test_feedback_makes_up_for_an_error_within_the_image():
     """Eq. (6.23) where H is 1: both fingers a fifth stronger than the model, Delta_P = 0.2."""
-    linear = controller_matrices(PRINTED, mean_inverse(PRINTED), H).linear()
+    linear = PRINTED_LOOP.linear()
     z = np.exp(1e-3j * 0.1)  # 0.001 rad/s
     to_command = linear(z)
     back, ahead = to_command[:, :2], to_command[:, 2:]
@@ -111,7 +112,7 @@ def test_feedback_makes_up_for_an_error_within_the_image():
 
 def test_a_batch_is_its_runs():
     angles = np.random.default_rng(0).normal(size=(8, 2, 3))
-    together = InternalModelController(PRINTED, TARGET, mean_inverse(PRINTED), H, limit=30)
+    together = InternalModelController(PRINTED_LOOP, TARGET, limit=30)
     found = np.array([together.update(y) for y in angles])
     assert found.shape == (8, 3)
     for k in range(3):
@@ -123,7 +124,8 @@ def test_without_mismatch_it_is_the_feedforward_alone():
     """At 1 ms the sampled loop is near the continuous P H P-dagger."""
     target = project(PRINTED, [1.0, 1.0]).reached
     low = low_pass(5.0)
-    controller = InternalModelController(PRINTED, target, mean_inverse(PRINTED), low, period=1e-3)
+    matrices = controller_matrices(PRINTED, mean_inverse(PRINTED), low, period=1e-3)
+    controller = InternalModelController(matrices, target)
     found = run_gripper(PRINTED, controller, duration=2.0, points=1)
     ahead = filtered_inverse(mean_inverse(PRINTED), low)
     whole = control.series(ahead, state_space(PRINTED))
@@ -137,9 +139,8 @@ def test_a_held_input_rule_misses_the_target_and_the_bilinear_one_does_not():
     target = project(PRINTED, [1.0, 1.0]).reached
     ends = {}
     for method in ("bilinear", "zoh"):
-        controller = InternalModelController(
-            PRINTED, target, mean_inverse(PRINTED), H, method=method
-        )
+        matrices = controller_matrices(PRINTED, mean_inverse(PRINTED), H, method=method)
+        controller = InternalModelController(matrices, target)
         ends[method] = run_gripper(PRINTED, controller, duration=10.0).angles[0, -1] / target[0]
     assert ends["bilinear"] == pytest.approx(1, abs=1e-3)
     assert ends["zoh"] > 10
@@ -149,7 +150,7 @@ def test_a_model_that_knows_the_limit_never_makes_up_for_what_was_cut():
     target = project(PRINTED, [1.0, 1.0]).reached
     ends = []
     for known in (5.0, np.inf):
-        controller = InternalModelController(PRINTED, target, mean_inverse(PRINTED), H, limit=known)
+        controller = InternalModelController(PRINTED_LOOP, target, limit=known)
         run = run_gripper(PRINTED, controller, duration=12.0, limit=5.0)
         ends.append(run.angles[0, -1] / target[0])
     assert ends[0] < 0.5
@@ -158,8 +159,8 @@ def test_a_model_that_knows_the_limit_never_makes_up_for_what_was_cut():
 
 def test_impossible_arguments_are_refused():
     with pytest.raises(InvalidInputError, match="shape"):
-        InternalModelController(PRINTED, [1.0], mean_inverse(PRINTED), H)
+        InternalModelController(PRINTED_LOOP, [1.0])
     with pytest.raises(InvalidInputError, match="delay"):
-        InternalModelController(PRINTED, TARGET, mean_inverse(PRINTED), H, delay_samples=-1)
+        controller_matrices(PRINTED, mean_inverse(PRINTED), H, delay_samples=-1)
     with pytest.raises(InvalidInputError, match="measured"):
-        InternalModelController(PRINTED, TARGET, mean_inverse(PRINTED), H).update(np.zeros(3))
+        InternalModelController(PRINTED_LOOP, TARGET).update(np.zeros(3))

@@ -53,9 +53,7 @@ def test_trajectories_are_those_of_forced_response(name, trial):
     batch = draw_grippers(PRINTED, 3, seed=4)
     found = simulate(batch, LOOPS[name], trial, keep="trajectories")
     for number in range(batch.count):
-        loop = InternalModelController(
-            PRINTED, TARGET, mean_inverse(PRINTED), FILTERS[name], limit=trial.limit
-        )
+        loop = InternalModelController(LOOPS[name], TARGET, limit=trial.limit)
         noise = sensor_noise(batch, trial)[number]
         angles, commands = forced(gripper_of(batch, number), trial, loop, noise)
         np.testing.assert_allclose(found.angles[number], angles, rtol=0, atol=1e-10)
@@ -66,7 +64,7 @@ def test_trajectories_are_those_of_forced_response(name, trial):
 def test_a_model_that_does_not_know_the_limit_is_the_command_cut_outside():
     trial = Trial(TARGET, limit=1.0)
     batch = draw_grippers(PRINTED, 1, seed=4)
-    loop = InternalModelController(PRINTED, TARGET, mean_inverse(PRINTED), FILTERS["fast"])
+    loop = InternalModelController(LOOPS["fast"], TARGET)
     angles, commands = forced(gripper_of(batch, 0), trial, loop)
     found = simulate(batch, unaware(LOOPS["fast"]), trial, keep="trajectories")
     np.testing.assert_allclose(found.angles[0], angles, rtol=0, atol=1e-10)

@@ -11,7 +11,7 @@ from softgrip.control.minimum_time import minimum_settling_time
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.gripper_batch import GripperBatch, Trial, can_rest, draw_grippers
 from softgrip.gripper.monte_carlo import simulate
-from softgrip.gripper.optimal_feedforward import optimal_feedforward, trade_off
+from softgrip.gripper.optimal_feedforward import FeedforwardProgram
 from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper, finger_state_space, state_space
 from softgrip.gripper.reach import project
 
@@ -20,7 +20,7 @@ TARGET = tuple(project(PRINTED, [np.pi / 4] * 2).reached.tolist())
 
 @pytest.fixture(scope="module")
 def best():
-    return optimal_feedforward(PRINTED, TARGET, settling=1.5, limit=5.0)
+    return FeedforwardProgram(PRINTED, TARGET, limit=5.0).settled_by(1.5)
 
 
 def test_the_command_does_what_is_said_of_it(best):
@@ -70,18 +70,23 @@ def test_the_dual_program_proves_the_optimum(best):
 
 def test_a_wider_limit_and_a_later_time_are_never_worse():
     curves = {
-        limit: [b.worst_sync for b in islice(trade_off(PRINTED, TARGET, limit=limit), 4)]
+        limit: [
+            b.worst_sync
+            for b in islice(FeedforwardProgram(PRINTED, TARGET, limit=limit).trade_off(), 4)
+        ]
         for limit in (5.0, 20.0)
     }
     for curve in curves.values():
         assert (np.diff(curve) < 1e-9).all()
-    same = [optimal_feedforward(PRINTED, TARGET, settling=1.5, limit=x).worst_sync for x in (5, 20)]
+    same = [
+        FeedforwardProgram(PRINTED, TARGET, limit=x).settled_by(1.5).worst_sync for x in (5, 20)
+    ]
     assert same[1] <= same[0] + 1e-9
 
 
 @pytest.mark.parametrize("limit", [1.0, 5.0])
 def test_two_fingers_settle_no_earlier_than_either_alone(limit):
-    first = next(trade_off(PRINTED, TARGET, limit=limit))
+    first = next(FeedforwardProgram(PRINTED, TARGET, limit=limit).trade_off())
     alone = [
         minimum_settling_time(
             finger_state_space(finger), angle, limit, band=0.02 * angle, hold=1.0, period=0.1
@@ -90,29 +95,27 @@ def test_two_fingers_settle_no_earlier_than_either_alone(limit):
     ]
     assert first.settling >= max(alone) - 1e-9
     with pytest.raises(InvalidInputError, match="within reach"):
-        optimal_feedforward(PRINTED, TARGET, settling=round(first.settling - 0.1, 9), limit=limit)
+        FeedforwardProgram(PRINTED, TARGET, limit).settled_by(round(first.settling - 0.1, 9))
 
 
 def test_equal_fingers_are_never_apart():
     alike = Gripper((PRINTED.mean,) * 3)
-    found = optimal_feedforward(alike, (0.7,) * 3, settling=1.5, limit=5.0, points=2)
-    assert found.worst_sync == pytest.approx(0, abs=1e-9)
+    program = FeedforwardProgram(alike, (0.7,) * 3, limit=5.0, points=2)
+    assert program.settled_by(1.5).worst_sync == pytest.approx(0, abs=1e-9)
     alone = minimum_settling_time(
         finger_state_space(PRINTED.mean), 0.7, 5.0, band=0.014, hold=1.5, period=0.1
     )
     # And then they are as fast as one, but for one point between two samples.
-    assert next(trade_off(alike, (0.7,) * 3, limit=5.0, points=2)).settling == pytest.approx(
-        alone, abs=0.11
-    )
+    assert next(program.trade_off()).settling == pytest.approx(alone, abs=0.11)
 
 
 def test_fingers_that_differ_by_a_gain_alone_are_never_apart():
     """Their shares of the target are then one and the same, whatever the command."""
     scaled = Gripper((FingerDynamics(2.6, 3.3, 7.0), FingerDynamics(2.6, 3.3, 9.0)))
     target = tuple((0.3 * scaled.velocity_gains).tolist())
-    assert optimal_feedforward(scaled, target, settling=1.5, limit=5.0).worst_sync == pytest.approx(
-        0, abs=1e-9
-    )
+    assert FeedforwardProgram(scaled, target, limit=5.0).settled_by(
+        1.5
+    ).worst_sync == pytest.approx(0, abs=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -129,8 +132,9 @@ def test_fingers_that_differ_by_a_gain_alone_are_never_apart():
 )
 def test_impossible_requests_are_refused(bad):
     given = {"target": TARGET, "settling": 1.5, "limit": 5.0, **bad}
+    time = given.pop("settling")
     with pytest.raises(InvalidInputError):
-        optimal_feedforward(PRINTED, given.pop("target"), **given)
+        FeedforwardProgram(PRINTED, **given).settled_by(time)
 
 
 def test_share_of_pairs_that_can_rest_is_that_of_the_triangle():

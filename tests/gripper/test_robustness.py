@@ -105,7 +105,7 @@ def test_poles_tell_what_a_run_does(period, delay):
     real = Gripper((FingerDynamics(2.9, 3.4, 7.831), FingerDynamics(2.2, 3.2, 7.831)))
     matrices = controller_matrices(PRINTED, MEAN, H, period=period)
     stable = sampled_stability(matrices, real, delay_samples=delay).stable
-    controller = InternalModelController(PRINTED, REST, MEAN, H, period=period)
+    controller = InternalModelController(matrices, REST)
     found = run_gripper(real, controller, duration=60.0, delay_samples=delay, points=1)
     late = np.abs(np.diff(found.commands[-20:])).max()
     assert stable == bool(late < 1e-2 * np.abs(np.diff(found.commands[:20])).max())

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from softgrip.gripper.gripper_loop import run_gripper
-from softgrip.gripper.internal_model import InternalModelController
+from softgrip.gripper.internal_model import InternalModelController, controller_matrices
 from softgrip.gripper.inversion import mean_inverse, moore_penrose_inverse
 from softgrip.gripper.plant import PRINTED
 from softgrip.gripper.reach import project
@@ -44,7 +44,8 @@ def test_what_is_reached_outside_the_image_hangs_on_the_inverse(make):
     """The mean inverse does not project; the one of Theorem 2 does, at rest."""
     target = [np.pi / 3] * 2
     found = final_angles(PRINTED, make(PRINTED), low_pass(3.0), target)
-    controller = InternalModelController(PRINTED, target, make(PRINTED), low_pass(3.0))
+    matrices = controller_matrices(PRINTED, make(PRINTED), low_pass(3.0))
+    controller = InternalModelController(matrices, target)
     assert found == pytest.approx(run_gripper(PRINTED, controller, duration=12.0).angles[:, -1])
     is_projection = bool(np.allclose(found, REACHED, atol=1e-6))
     assert is_projection == (make is moore_penrose_inverse)

@@ -28,7 +28,7 @@ def test_no_loop_is_below_the_least_difference_of_the_nominal_pair():
     """A loop that settles in time is one of the commands that the linear program looks at."""
     loop = shown.outcome("2/s", pairs=1)
     when = loop.settling[0].max()
-    best = shown.trade_off(PRINTED, shown.TARGET, limit=5.0, latest=2.2)
+    best = shown.FeedforwardProgram(PRINTED, shown.TARGET, limit=5.0).trade_off(2.2)
     bound = next(b.worst_sync for b in best if b.settling >= when)
     assert loop.synchronization[0] > bound
 
