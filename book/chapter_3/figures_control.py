@@ -36,7 +36,7 @@ from softgrip.control.rig_controller import Tracking
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.second_order import full_state_space
 from softgrip.logs.reader import kept_log, read_log
-from softgrip.logs.steps import StepFigures, step_figures, step_log_figures
+from softgrip.logs.steps import StepResponse, judge_step, judge_step_log
 from softgrip.provenance import Provenance
 from softgrip.reads import remembered
 from softgrip.simulator.calibration import design_1
@@ -164,8 +164,8 @@ def table_3_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
         )
         rig = f"{read_log(path).header.provenance} rig"
         rows += [
-            (words, "5 rev/s", *_told(step_figures(own.time, own.measured, STEP, window=0))),
-            (words, rig, *_told(step_log_figures(path))),
+            (words, "5 rev/s", *_told(judge_step(own.time, own.measured, STEP, window=0))),
+            (words, rig, *_told(judge_step_log(path))),
             (words, f"simulated, {RUNS} runs", *_told(_runs(design))),
         ]
     return pd.DataFrame(rows, columns=["design", "run on", "2 %", "5 %", "5 deg", "error (deg)"])
@@ -175,13 +175,13 @@ def _linear(weights: Weights, bands: tuple[float, ...]) -> list[str]:
     return [*(f"{linear_settling_time(FINGER, weights, band):.2f}" for band in bands), "0"]
 
 
-def _runs(design: str) -> StepFigures:
+def _runs(design: str) -> StepResponse:
     rig = Simulation(design_1(), runs=RUNS, seed=SEED)
     made = drive(rig, Tracking(regulator(design), STEP), duration=STEP_DURATION)
-    return step_figures(made.time, made.measured.angle[:, 0].T, STEP)
+    return judge_step(made.time, made.measured.angle[:, 0].T, STEP)
 
 
-def _told(found: StepFigures) -> list[str]:
+def _told(found: StepResponse) -> list[str]:
     times = (found.settled_2_percent, found.settled_5_percent, found.settled_5_deg)
     return [
         *(_spread(time, "{:.2f}") for time in times),

@@ -19,7 +19,7 @@ from softgrip.control.lqr import FINGER, Weights, linear_settling_time
 from softgrip.control.lqr import step_response as lqr_response
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.second_order import SecondOrder, step_response
-from softgrip.logs.steps import step_log_figures
+from softgrip.logs.steps import judge_step_log
 from softgrip.materials.table import material
 from softgrip.provenance import data_file
 from softgrip.units import DEG, MM, MPa
@@ -211,4 +211,4 @@ def lqr_error() -> float:
 def lqr_settling_on_rig(design: str, criterion: str = "settled_5_deg") -> float:
     """Return the settling time of a regulator on the simulated rig, a step to 60 deg, s."""
     path = data_file(f"simulated/lqr-{design}.csv").path
-    return float(getattr(step_log_figures(path), criterion))
+    return float(getattr(judge_step_log(path), criterion))

@@ -12,7 +12,7 @@ from softgrip.control.pid import PID, Gains
 from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed, PressureByPlunger
 from softgrip.dynamics.second_order import full_state_space, state_space
 from softgrip.errors import InvalidInputError
-from softgrip.logs.steps import StepFigures, step_figures
+from softgrip.logs.steps import StepResponse, judge_step
 
 Name = Literal["actuator", "actuator by plunger", "full"]
 """The (4.14) design under its two readings of `control.pressure_command`, and the (4.15) one."""
@@ -51,7 +51,7 @@ def own_loop(design: str, gains: Gains | None = None, *, duration: float = 8.0) 
     return linear_loop(system, gains or pid_gains(design), limit, duration=duration)
 
 
-def own_step(design: str) -> StepFigures:
+def own_step(design: str) -> StepResponse:
     """Judge the step of `own_loop`, as the step of a log is judged."""
     found = own_loop(design, duration=20.0)
-    return step_figures(found.time, np.ravel(found.measured), STEP, window=0)
+    return judge_step(found.time, np.ravel(found.measured), STEP, window=0)

@@ -12,10 +12,9 @@ import numpy as np
 from softgrip.dynamics.identify import Identified, identify
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import DataFileError
-from softgrip.logs.pump import pump_of
+from softgrip.logs.pump import check_start, pump_of, swept_volume
 from softgrip.logs.reader import read_log
 from softgrip.logs.repeated_steps import read_alike
-from softgrip.logs.swept_volume import check_start, swept_volume
 from softgrip.provenance import data_file
 from softgrip.pump.flow import flow
 

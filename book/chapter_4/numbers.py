@@ -5,8 +5,8 @@ from itertools import product
 from book.chapter_4.controllers import own_step
 from book.companion.verdict import simulated
 from softgrip.logs.pushes import compare
-from softgrip.logs.staircase import staircase_figures
-from softgrip.logs.steps import StepFigures, step_log_figures
+from softgrip.logs.staircase import judge_staircase
+from softgrip.logs.steps import StepResponse, judge_step_log
 from softgrip.provenance import data_folder
 from softgrip.pump.flow import TABLE_4_1, Pump, PumpRun, parameter_set
 from softgrip.pump.gas import ATMOSPHERE, capacity_growth
@@ -65,8 +65,8 @@ def settling_on_model(design: str, criterion: str = "settled_5_percent") -> floa
     return float(getattr(own_step(design), criterion))
 
 
-def _step_log(design: str) -> StepFigures:
-    return step_log_figures(data_folder() / "simulated" / f"pid-{design}.csv")
+def _step_log(design: str) -> StepResponse:
+    return judge_step_log(data_folder() / "simulated" / f"pid-{design}.csv")
 
 
 @simulated
@@ -84,4 +84,4 @@ def steady_state_error(design: str) -> float:
 @simulated
 def staircase_lag() -> float:
     """Return the delay of the angle behind the staircase on the simulated rig, in s."""
-    return staircase_figures(data_folder() / "simulated" / "staircase.csv").lag
+    return judge_staircase(data_folder() / "simulated" / "staircase.csv").lag

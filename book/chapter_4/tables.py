@@ -9,7 +9,7 @@ import pandas as pd
 from book.chapter_4.controllers import own_step
 from book.companion.exhibit import table
 from softgrip.logs.reader import kept_log, read_log
-from softgrip.logs.steps import step_log_figures
+from softgrip.logs.steps import judge_step_log
 from softgrip.provenance import Provenance
 from softgrip.pump.finger import Finger
 from softgrip.pump.flow import TABLE_4_1, Pump, flow
@@ -107,16 +107,16 @@ def table_4_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
     names = {"actuator": "finger alone (4.14)", "full": "finger and pump (4.15)"}
     for (design, words), path in zip(names.items(), paths, strict=True):
         rig = f"{read_log(path).header.provenance} rig"
-        for place, figures in (("own model", own_step(design)), (rig, step_log_figures(path))):
+        for place, response in (("own model", own_step(design)), (rig, judge_step_log(path))):
             rows.append(
                 {
                     "designed on": words,
                     "run on": place,
-                    "2 %": _seconds(figures.settled_2_percent),
-                    "5 %": _seconds(figures.settled_5_percent),
-                    "2 deg": _seconds(figures.settled_2_deg),
-                    "5 deg": _seconds(figures.settled_5_deg),
-                    "error (deg)": f"{float(figures.steady_state_error) / DEG:+.1f}",
+                    "2 %": _seconds(response.settled_2_percent),
+                    "5 %": _seconds(response.settled_5_percent),
+                    "2 deg": _seconds(response.settled_2_deg),
+                    "5 deg": _seconds(response.settled_5_deg),
+                    "error (deg)": f"{float(response.steady_state_error) / DEG:+.1f}",
                 }
             )
     return pd.DataFrame(rows)

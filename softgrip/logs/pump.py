@@ -1,10 +1,21 @@
-"""The pump of a log, from its header."""
+"""The pump of a log: which it is, and what it has swept, over the true times of its rows."""
 
 from pathlib import Path
 
+import numpy as np
+
+from softgrip.arrays import Floats
 from softgrip.errors import DataFileError
+from softgrip.logs.gaps import gaps_of, intervals, places
 from softgrip.logs.schema import Log
 from softgrip.pump.flow import Pump
+
+LONGEST = 2.0
+"""Longest gap, s, over which a command that is the same before and after it is taken as held. A
+board whose host hangs stops its motor by itself; a longer gap tells too little."""
+START = 1500.0
+"""Pa: twice the noise of the pressure sensor. A push that begins above has lost its beginning."""
+LEAST_ROWS = 8
 
 
 def pump_of(path: Path, log: Log) -> Pump:
@@ -24,3 +35,57 @@ def pump_of(path: Path, log: Log) -> Pump:
             path, expected="'area: <number> m^2' and 'lead: <number> m' in the header",
             got=repr(error),
         ) from None  # fmt: skip
+
+
+def swept_volume(path: Path | str, log: Log, flow: Floats) -> Floats:
+    """Return the volume swept until each row, m^3, shape (N,).
+
+    A row tells the command that was held until its time, the first one for a period. The rows of a
+    gap tell nothing: it is bridged where the command is the same on both sides.
+
+    Args:
+        path, log: What is read.
+        flow: Of each row's command, m^3/s, shape (N,).
+
+    Raises:
+        DataFileError: If the command changes over a gap, or the gap is longer than `LONGEST`.
+    """
+    command = log["command"]
+    if lost := [
+        gap
+        for gap in gaps_of(log)
+        if gap.end - gap.start > LONGEST or command[gap.row] != command[gap.row + 1]
+    ]:
+        raise DataFileError(
+            path,
+            expected=f"one command over each gap, and none above {LONGEST:g} s: else the volume "
+            "swept in it is not known",
+            got=places(lost),
+        )
+    # Numbers of periods, which are exactly 1 in an even log.
+    steps = np.concatenate([[1.0], intervals(log["time"], log.header.period)])
+    return np.asarray(np.cumsum(flow * steps) * log.header.period)
+
+
+def check_start(path: Path | str, swept: Floats, pressure: Floats) -> None:
+    """Refuse a push without its beginning: what it swept then would be missing throughout.
+
+    Args:
+        path: Named in the error.
+        swept, pressure: m^3 and Pa (gauge) at low pressure, shape (N,).
+
+    Raises:
+        DataFileError: If there are fewer than `LEAST_ROWS` rows, or a parabola through the pressure
+            begins above `START`.
+    """
+    if swept.size < LEAST_ROWS or not np.ptp(swept) > 0:
+        raise DataFileError(
+            path, expected=f"{LEAST_ROWS} rows of a push at low pressure", got=str(swept.size)
+        )
+    begun = float(np.polynomial.Polynomial.fit(swept, pressure, 2)(0.0))
+    if begun > START:
+        raise DataFileError(
+            path,
+            expected=f"a push from atmospheric pressure, within {START:g} Pa",
+            got=f"{begun:.0f} Pa before the first row",
+        )

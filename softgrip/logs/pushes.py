@@ -10,9 +10,8 @@ from softgrip.arrays import Floats
 from softgrip.errors import DataFileError
 from softgrip.kept import Kept
 from softgrip.logs.gaps import intervals
-from softgrip.logs.pump import pump_of
+from softgrip.logs.pump import check_start, pump_of, swept_volume
 from softgrip.logs.reader import read_log
-from softgrip.logs.swept_volume import check_start, swept_volume
 from softgrip.provenance import Provenance, data_file
 from softgrip.pump import pressure as law
 from softgrip.pump.capacity import CapacityEstimate, estimate

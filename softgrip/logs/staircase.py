@@ -18,8 +18,8 @@ a second, that is an error of half of it over n."""
 
 
 @dataclass(frozen=True)
-class StaircaseFigures:
-    """The figures of a staircase.
+class StaircaseResponse:
+    """What the response to a staircase is like.
 
     Attributes:
         edges: Number of changes of the reference.
@@ -104,7 +104,7 @@ def mean_edge(
     return t[at[0] : at[0] + shortest] - t[at[0]], share
 
 
-def staircase_figures(path: Path | str) -> StaircaseFigures:
+def judge_staircase(path: Path | str) -> StaircaseResponse:
     """Judge the staircase that a log holds.
 
     Args:
@@ -125,7 +125,7 @@ def staircase_figures(path: Path | str) -> StaircaseFigures:
         delay = lag(reference, angle, log.header.period)
     except InvalidInputError as error:
         raise DataFileError(path, expected="a staircase", got=str(error)) from None
-    return StaircaseFigures(
+    return StaircaseResponse(
         edges=int(np.count_nonzero(np.diff(reference))),
         time_to_half=_first(since, share, 0.5),
         time_to_change=_first(since, share, 0.9),

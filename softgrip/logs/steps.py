@@ -32,8 +32,8 @@ About = Literal["reference", "own end"]
 
 
 @dataclass(frozen=True)
-class StepFigures:
-    """The figures of a step, each of shape () or (runs,).
+class StepResponse:
+    """What a step response is like, each of shape () or (runs,).
 
     Attributes:
         settled_2_percent, settled_5_percent: Time after which the angle stays within a share of the
@@ -68,7 +68,7 @@ def smoothed(angle: ArrayLike, period: float, *, window: float = WINDOW) -> Floa
     return np.asarray(uniform_filter1d(np.asarray(angle, np.float64), samples, mode="nearest"))
 
 
-def step_figures(
+def judge_step(
     time: ArrayLike,
     angle: ArrayLike,
     target: float,
@@ -77,7 +77,7 @@ def step_figures(
     about: About = "reference",
     window: float = WINDOW,
     measured: ArrayLike = True,
-) -> StepFigures:
+) -> StepResponse:
     """Judge a step.
 
     Args:
@@ -108,7 +108,7 @@ def step_figures(
     two_percent, five_percent, two_deg, five_deg = (
         np.where(time > t[-1] - END, np.inf, time) for time in found
     )
-    return StepFigures(
+    return StepResponse(
         settled_2_percent=two_percent,
         settled_5_percent=five_percent,
         settled_2_deg=two_deg,
@@ -119,15 +119,15 @@ def step_figures(
     )
 
 
-def step_log_figures(
+def judge_step_log(
     path: Path | str, *, about: About = "reference", window: float = WINDOW
-) -> StepFigures:
+) -> StepResponse:
     """Judge the step that a log holds.
 
     Args:
         path: Of a log with a column `reference` [rad], which either changes once or is one number
             from the first sample on, the step being at that sample.
-        about, window: As of `step_figures`.
+        about, window: As of `judge_step`.
 
     Raises:
         DataFileError: If the log has no reference, its reference is no single step, or more than
@@ -146,7 +146,7 @@ def step_log_figures(
         raise DataFileError(
             path, expected="a reference with one step", got=f"{changes.size} changes"
         )
-    return step_figures(
+    return judge_step(
         time[start:] - time[start],
         clock.lines(log["angle"])[start:],
         float(reference[-1]),

@@ -17,7 +17,7 @@ from softgrip.logs.fingers import column, fingers_of
 from softgrip.logs.gaps import EvenClock, even_clock, refuse_gaps
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import Log
-from softgrip.logs.steps import AVERAGING, BRIDGED, WINDOW, step_figures
+from softgrip.logs.steps import AVERAGING, BRIDGED, WINDOW, judge_step
 from softgrip.simulator.calibration import FULL_PRESSURE
 from softgrip.simulator.parameters import SensorParameters
 from softgrip.units import DEG, MPa
@@ -88,7 +88,7 @@ def finger_bands(log: Log, clock: EvenClock, finger: int, experiment: Experiment
     """Judge the step of one finger, counted from 0; the reference steps at the first sample."""
     time, angle = log["time"] - log["time"][0], log[column("angle", finger)]
     target = float(log[column("reference", finger)][-1])
-    step = step_figures(
+    step = judge_step(
         clock.lines(time), clock.lines(angle), target, about="own end", measured=clock.measured
     )
     # The averaging keeps a share 1/n of white noise in the mean that is taken away.

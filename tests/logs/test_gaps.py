@@ -15,8 +15,8 @@ from softgrip.logs.fingers import read_runs
 from softgrip.logs.pushes import compare
 from softgrip.logs.reader import read_log
 from softgrip.logs.repeated_steps import read_step_test
-from softgrip.logs.staircase import mean_edge, staircase_figures
-from softgrip.logs.steps import step_figures, step_log_figures
+from softgrip.logs.staircase import judge_staircase, mean_edge
+from softgrip.logs.steps import judge_step, judge_step_log
 from softgrip.provenance import data_folder
 from softgrip.rig.__main__ import main
 from softgrip.rig.record import record
@@ -56,7 +56,7 @@ def retimed(path, kept, time):
 
 @pytest.fixture(scope="module")
 def whole():
-    return identify_capacity(PUSH), compare(PUSH), staircase_figures(STAIRCASE)
+    return identify_capacity(PUSH), compare(PUSH), judge_staircase(STAIRCASE)
 
 
 @pytest.mark.parametrize("start", [10, 35, 60])
@@ -77,7 +77,7 @@ def test_capacity_is_that_of_the_whole_push(path, whole, count, start):
 @pytest.mark.parametrize("start", [20, 43, 100, 200, 330, 500, 573])  # 43, 330, 573: over changes
 def test_staircase_is_that_of_the_whole_log(path, whole, start):
     before = whole[2]
-    found = staircase_figures(without(path, STAIRCASE, range(start, start + 10)))
+    found = judge_staircase(without(path, STAIRCASE, range(start, start + 10)))
     # The mean over twelve changes crosses a half in noise, from 0.92 s to 1.13 s: one row less can
     # move it as far. The shift of an even clock would be infinite.
     assert found.time_to_half == pytest.approx(before.time_to_half, abs=0.22)
@@ -88,8 +88,8 @@ def test_staircase_is_that_of_the_whole_log(path, whole, start):
 
 @pytest.mark.parametrize("start", [10, 50, 100, 400, 750])
 def test_step_is_that_of_the_whole_log(path, start):
-    before = step_log_figures(STEP)
-    found = step_log_figures(without(path, STEP, range(start, start + 5)))
+    before = judge_step_log(STEP)
+    found = judge_step_log(without(path, STEP, range(start, start + 5)))
     assert found.settled_5_percent == pytest.approx(before.settled_5_percent, abs=0.03)
     assert found.settled_5_deg == pytest.approx(before.settled_5_deg, abs=0.03)
     assert found.steady_state_error == pytest.approx(before.steady_state_error, abs=0.006)
@@ -264,17 +264,17 @@ def test_means_of_runs_need_all_rows(tmp_path, read, names):
 def test_long_gaps_of_steps_and_staircases_are_refused(path):
     without(path, STEP, range(40, 46))
     with pytest.raises(DataFileError, match=r"6 rows missing between 0\.975 and 1\.15 s"):
-        step_log_figures(path)
+        judge_step_log(path)
     with pytest.raises(DataFileError, match="all rows"):
-        step_log_figures(without(path, STEP, [40]), window=0.0)
+        judge_step_log(without(path, STEP, [40]), window=0.0)
     with pytest.raises(DataFileError, match="11 rows missing"):
-        staircase_figures(without(path, STAIRCASE, range(40, 51)))
+        judge_staircase(without(path, STAIRCASE, range(40, 51)))
 
 
 def test_arrays_with_gaps_are_refused():
     time = np.delete(np.arange(400) * 0.025, range(100, 105))
     with pytest.raises(InvalidInputError, match=r"even samples.*5 rows missing"):
-        step_figures(time, np.ones(time.size), 1.0)
+        judge_step(time, np.ones(time.size), 1.0)
     with pytest.raises(InvalidInputError, match=r"even samples.*5 rows missing"):
         mean_edge(time, np.floor(time), time)
 
@@ -316,7 +316,7 @@ def test_a_staircase_with_any_rows_missing_is_near_or_refused(gaps, rows, whole,
     path = tmp_path_factory.mktemp("log") / "log.csv"
     without(path, STAIRCASE, {k for start, n in gaps for k in range(start, start + n)} | rows)
     try:
-        found = staircase_figures(path)
+        found = judge_staircase(path)
     except DataFileError:
         return
     assert found.time_to_half == pytest.approx(whole[2].time_to_half, abs=0.25)

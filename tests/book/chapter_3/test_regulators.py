@@ -14,7 +14,7 @@ from softgrip.control.rig_controller import Tracking
 from softgrip.control.state_feedback import StateFeedback
 from softgrip.dynamics.second_order import full_state_space
 from softgrip.errors import UnknownNameError
-from softgrip.logs.steps import step_figures, step_log_figures
+from softgrip.logs.steps import judge_step, judge_step_log
 from softgrip.provenance import data_file
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
@@ -27,8 +27,8 @@ def batch(regulator, runs):
     rig = Simulation(design_1(), runs=runs, seed=SEED)
     made = drive(rig, Tracking(regulator, STEP), duration=20.0)
     return (
-        step_figures(made.time, made.measured.angle[:, 0].T, STEP),
-        step_figures(made.time, made.truth.angle[:, 0].T, STEP, window=0),
+        judge_step(made.time, made.measured.angle[:, 0].T, STEP),
+        judge_step(made.time, made.truth.angle[:, 0].T, STEP, window=0),
     )
 
 
@@ -78,7 +78,7 @@ def test_fast_design_is_near_what_any_controller_can_do_on_the_model():
 
 def test_logs_say_the_same_as_the_batch():
     for name, time in (("printed", 2.62), ("fast", 1.30)):
-        found = step_log_figures(data_file(f"simulated/lqr-{name}.csv").path)
+        found = judge_step_log(data_file(f"simulated/lqr-{name}.csv").path)
         assert float(found.settled_5_deg) == pytest.approx(time, abs=0.03)
         assert abs(float(found.steady_state_error)) < 2 * DEG
 

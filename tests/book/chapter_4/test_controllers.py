@@ -23,8 +23,8 @@ from softgrip.control.state_space_plant import StateSpacePlant
 from softgrip.dynamics.second_order import full_state_space
 from softgrip.errors import DataFileError, InvalidInputError, UnknownNameError
 from softgrip.logs.reader import read_log
-from softgrip.logs.staircase import lag, mean_edge, staircase_figures
-from softgrip.logs.steps import smoothed, step_figures, step_log_figures
+from softgrip.logs.staircase import judge_staircase, lag, mean_edge
+from softgrip.logs.steps import judge_step, judge_step_log, smoothed
 from softgrip.provenance import data_file
 from softgrip.simulator import calibration
 from softgrip.simulator.calibration import OPERATING_ANGLE, design_1
@@ -117,19 +117,19 @@ def test_log_replayed_in_open_loop_gives_its_own_measurements(name):
 
 
 def test_figures_of_the_step_under_the_full_design():
-    figures = step_log_figures(kept("pid-full"))
+    response = judge_step_log(kept("pid-full"))
     # To the period, 0.025 s; the printed 2.38 s lies between the two.
-    assert float(figures.settled_5_deg) == pytest.approx(1.71, abs=0.03)
-    assert float(figures.settled_5_percent) == pytest.approx(4.26, abs=0.03)
-    assert abs(float(figures.steady_state_error)) < 2 * DEG  # printed: about 2 deg
-    assert float(figures.noise) == pytest.approx(2 * DEG, rel=0.1)
+    assert float(response.settled_5_deg) == pytest.approx(1.71, abs=0.03)
+    assert float(response.settled_5_percent) == pytest.approx(4.26, abs=0.03)
+    assert abs(float(response.steady_state_error)) < 2 * DEG  # printed: about 2 deg
+    assert float(response.noise) == pytest.approx(2 * DEG, rel=0.1)
 
 
 def test_figures_of_the_step_under_the_actuator_design():
-    figures = step_log_figures(kept("pid-actuator"))
-    assert float(figures.settled_5_deg) == pytest.approx(10.29, abs=0.03)  # printed: 3.95 s
-    assert float(figures.settled_5_percent) == pytest.approx(10.53, abs=0.03)
-    assert abs(float(figures.steady_state_error)) < 2 * DEG  # printed: about 5 deg
+    response = judge_step_log(kept("pid-actuator"))
+    assert float(response.settled_5_deg) == pytest.approx(10.29, abs=0.03)  # printed: 3.95 s
+    assert float(response.settled_5_percent) == pytest.approx(10.53, abs=0.03)
+    assert abs(float(response.steady_state_error)) < 2 * DEG  # printed: about 5 deg
 
 
 def test_full_design_settles_sooner_on_every_finger_at_60_deg():
@@ -137,8 +137,8 @@ def test_full_design_settles_sooner_on_every_finger_at_60_deg():
     for name in ("actuator", "full"):
         rig = Simulation(design_1(), runs=7, seed=SEED)
         made = drive(rig, Tracking(controller(name), 60 * DEG), duration=20.0)
-        truth = step_figures(made.time, made.truth.angle[:, 0].T, 60 * DEG, window=0.0)
-        told = step_figures(made.time, made.measured.angle[:, 0].T, 60 * DEG)
+        truth = judge_step(made.time, made.truth.angle[:, 0].T, 60 * DEG, window=0.0)
+        told = judge_step(made.time, made.measured.angle[:, 0].T, 60 * DEG)
         settled[name] = np.median(told.settled_5_deg)
         # Averaged measurements judge as the truth does: within lag and window.
         assert settled[name] == pytest.approx(np.median(truth.settled_5_deg), abs=0.25)
@@ -156,8 +156,8 @@ def test_no_set_pressure_brings_the_actuator_design_to_the_printed_time():
         by_share = PressureAsSpeed(pid, set_pressure=set_pressure)
         rig = Simulation(design_1(), runs=7, seed=SEED)
         made = drive(rig, Tracking(by_share, 60 * DEG), duration=20.0)
-        figures = step_figures(made.time, made.measured.angle[:, 0].T, 60 * DEG)
-        settled.append(float(np.median(figures.settled_5_deg)))
+        response = judge_step(made.time, made.measured.angle[:, 0].T, 60 * DEG)
+        settled.append(float(np.median(response.settled_5_deg)))
     np.testing.assert_allclose(settled[:3], [10.40, 8.34, 5.38], atol=0.1)
     assert np.isinf(settled[3])
     assert min(settled) > 3.95
@@ -173,19 +173,19 @@ def test_plunger_reading_settles_without_noise_and_not_with_it(model):
         duration=20.0,
         limit=SPEED_LIMIT,
     )
-    found = step_figures(time, clean.measured, 60 * DEG, window=0.0)
+    found = judge_step(time, clean.measured, 60 * DEG, window=0.0)
     assert found.settled_5_percent == pytest.approx(2.75, abs=0.03)
     rig = Simulation(design_1(), runs=7, seed=SEED)
     made = drive(rig, Tracking(controller("actuator by plunger"), 60 * DEG), duration=20.0)
-    assert np.isinf(step_figures(time, made.measured.angle[:, 0].T, 60 * DEG).settled_5_deg).all()
+    assert np.isinf(judge_step(time, made.measured.angle[:, 0].T, 60 * DEG).settled_5_deg).all()
 
 
 def test_staircase_lags_far_more_than_the_printed_fifth_of_a_second(model):
-    figures = staircase_figures(kept("staircase"))
-    assert figures.edges == 12
-    assert figures.lag == pytest.approx(0.95, abs=0.03)
-    assert figures.time_to_half == pytest.approx(0.93, abs=0.05)
-    assert np.isinf(figures.time_to_change)  # 90 % are not covered in a hold of 1.2 s
+    response = judge_staircase(kept("staircase"))
+    assert response.edges == 12
+    assert response.lag == pytest.approx(0.95, abs=0.03)
+    assert response.time_to_half == pytest.approx(0.93, abs=0.05)
+    assert np.isinf(response.time_to_change)  # 90 % are not covered in a hold of 1.2 s
     # No controller can: at 5 rev/s all the way the identified finger moves 1 deg in 0.2 s.
     system = full_state_space(model.finger, model.pump_gain)
     reached = farthest(system, SPEED_LIMIT, 0.2)
@@ -195,20 +195,20 @@ def test_staircase_lags_far_more_than_the_printed_fifth_of_a_second(model):
 def test_step_figures_of_a_known_response():
     time = np.arange(0, 20, 0.01)
     angle = 1.0 - np.exp(-time)
-    found = step_figures(time, np.stack([angle, 0.9 * angle]), 1.0, window=0.0)
+    found = judge_step(time, np.stack([angle, 0.9 * angle]), 1.0, window=0.0)
     assert found.settled_2_percent[0] == pytest.approx(np.log(50), abs=1e-3)
     assert found.settled_5_deg[0] == pytest.approx(-np.log(5 * DEG), abs=1e-3)
     # The second keeps an error of 0.1 rad: it settles about its own end alone.
     assert np.isinf(found.settled_5_deg[1])
     assert found.steady_state_error[1] == pytest.approx(0.1, abs=1e-6)
-    own = step_figures(time, 0.9 * angle, 1.0, about="own end", window=0.0)
+    own = judge_step(time, 0.9 * angle, 1.0, about="own end", window=0.0)
     assert own.settled_2_percent == pytest.approx(np.log(0.9 / 0.018), abs=1e-3)
 
 
 def test_what_settles_only_at_the_end_of_the_record_has_not_settled():
     time = np.arange(0, 10, 0.01)
     late = np.where(time < 9.0, 0.0, 1.0)
-    assert np.isinf(step_figures(time, late, 1.0, window=0.0).settled_5_deg)
+    assert np.isinf(judge_step(time, late, 1.0, window=0.0).settled_5_deg)
 
 
 def test_averaging_delays_nothing_and_takes_noise_away():
@@ -240,8 +240,8 @@ def test_lag_and_mean_edge_of_a_delayed_staircase(samples):
 
 def test_logs_without_a_fitting_reference_are_refused(tmp_path):
     with pytest.raises(DataFileError, match="reference"):
-        step_log_figures(kept("step-60-1"))
+        judge_step_log(kept("step-60-1"))
     with pytest.raises(DataFileError, match="one step"):
-        step_log_figures(kept("staircase"))
+        judge_step_log(kept("staircase"))
     with pytest.raises(DataFileError, match="staircase"):
-        staircase_figures(kept("pid-full"))
+        judge_staircase(kept("pid-full"))

@@ -13,7 +13,7 @@ from book.companion.simulated_logs import STEP
 from softgrip.control.rig_controller import Tracking
 from softgrip.logs.fingers import fingers_of
 from softgrip.logs.reader import read_log
-from softgrip.logs.steps import step_log_figures
+from softgrip.logs.steps import judge_step_log
 from softgrip.provenance import data_file
 from softgrip.rig.connect import connect
 from softgrip.rig.record import record
@@ -54,7 +54,7 @@ def test_a_step_of_the_finger(title, law, kept_logs, tmp_path):
     # Two runs of one finger: the sensor's noise, 2 deg, in both, and a start that the board's
     # acceleration limit and its clock delay by a period or two.
     assert apart(path, own) < 5 * DEG
-    found, before = step_log_figures(path), step_log_figures(own)
+    found, before = judge_step_log(path), judge_step_log(own)
     assert abs(found.steady_state_error - before.steady_state_error) < 2 * DEG
     assert drawn(title, (other, path)).axes
 
