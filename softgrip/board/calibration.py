@@ -1,7 +1,7 @@
 """From the counts of a board's converter to pressure and angle, fitted and kept with its board."""
 
 import csv
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -128,9 +128,7 @@ def save(
         table.writerow(COLUMNS)
         named = [("pressure [Pa]", calibration.pressure)]
         named += [(f"angle_{k} [rad]", line) for k, line in enumerate(calibration.angles, 1)]
-        for name, line in named:
-            values = (line.gain, line.offset, line.residual, line.low_count, line.high_count)
-            table.writerow([name, *map(repr, values)])
+        table.writerows([name, *map(repr, astuple(line))] for name, line in named)
 
 
 def load(path: Path | str) -> BoardCalibration:
@@ -148,11 +146,9 @@ def load(path: Path | str) -> BoardCalibration:
         raise DataFileError(
             file, expected=f"a line '# board:', and the columns {COLUMNS}", got=str(rows[:1])
         )
+    names = [row[0] for row in rows[1:]]
     try:
-        names, lines = (
-            [row[0] for row in rows[1:]],
-            [SensorLine(*map(float, row[1:])) for row in rows[1:]],
-        )
+        lines = [SensorLine(*map(float, row[1:])) for row in rows[1:]]
     except (TypeError, ValueError) as error:
         raise DataFileError(file, expected="five numbers a sensor", got=str(error)) from None
     wanted = ["pressure [Pa]", *(f"angle_{k} [rad]" for k in range(1, len(rows) - 1))]

@@ -2,23 +2,15 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Protocol
 
 from serial.tools import list_ports
+from serial.tools.list_ports_common import ListPortInfo
 
 from softgrip.board.errors import BoardError, NoBoardError
 from softgrip.board.link import SerialLink
 from softgrip.board.session import Session
 
 VENDORS = {0x2341: "Arduino", 0x2A03: "Arduino", 0x1A86: "CH340 of a clone", 0x0403: "FTDI"}
-
-
-class Port(Protocol):
-    """What pyserial tells of a port."""
-
-    device: str
-    vid: int | None
-    pid: int | None
 
 
 @dataclass(frozen=True)
@@ -34,7 +26,7 @@ class Candidate:
         return f"{self.port} ({self.usb}): {self.answer}"
 
 
-def candidates(ports: Iterable[Port] | None = None) -> list[Candidate]:
+def candidates(ports: Iterable[ListPortInfo] | None = None) -> list[Candidate]:
     """Greet the board on each port of a known maker, and say what came of it.
 
     Opening its port resets an Arduino, whatever runs on it.
@@ -67,7 +59,7 @@ def _greeted(port: str) -> tuple[str, bool]:
         link.close()
 
 
-def find_board(ports: Iterable[Port] | None = None) -> Candidate:
+def find_board(ports: Iterable[ListPortInfo] | None = None) -> Candidate:
     """Return the one board that answers.
 
     Raises:

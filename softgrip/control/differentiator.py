@@ -22,7 +22,10 @@ class Differentiator(Protocol):
     """What gives a signal and its first two derivatives."""
 
     def update(self, measurement: ArrayLike) -> Floats:
-        """Take the next sample, rad, shape () or (runs,); return (3,) or (3, runs): per s^0,1,2."""
+        """Take the next sample, rad, shape () or (runs,); return (3,) or (3, runs): per s^0,1,2.
+
+        Before the first sample the signal rested at it.
+        """
         ...
 
 
@@ -57,10 +60,7 @@ class RobustDifferentiator:
         self._state: Floats | None = None
 
     def update(self, measurement: ArrayLike) -> Floats:
-        """Take the next sample and return angle, rate and acceleration at it.
-
-        Before the first sample the signal rested at it.
-        """
+        """Take the next sample and return angle, rate and acceleration at it."""
         y = np.asarray(measurement, dtype=np.float64)
         if self._state is None:
             self._state = np.stack([y, np.zeros_like(y), np.zeros_like(y)])
@@ -112,10 +112,7 @@ class PolynomialDifferentiator:
         self._last: list[Floats] = []
 
     def update(self, measurement: ArrayLike) -> Floats:
-        """Take the next sample and return angle, rate and acceleration at it.
-
-        Before the first sample the signal rested at it.
-        """
+        """Take the next sample and return angle, rate and acceleration at it."""
         y = np.asarray(measurement, dtype=np.float64)
         window = self._rows.shape[1]
         self._last = [*self._last[1:], y] if self._last else [y] * window

@@ -119,24 +119,10 @@ def largest_step(
 ) -> float:
     """Return the largest change of the output that held commands within +-limit settle, from rest.
 
-    The question of `minimum_time.minimum_settling_time` turned round: the time is given, the change
-    is what the program makes large. What it finds knows the plant, fears no noise, and overshoots
-    within the band where that helps; so no controller of the same period does more. Samples alone
-    are looked at, which is worth a part of a period.
-
-    Args:
-        system: One input, one output, continuous, D = 0.
-        limit: Largest absolute command, > 0.
-        time: From which on all samples lie in the band, s, a period at least.
-        band: Half width of the band as a share of the change, 0 to 1.
-        hold: Time for which the output must stay there, s, > 0.
-        period: Time between two commands, s, > 0.
-
-    Returns:
-        float: Output unit.
-
-    Raises:
-        InvalidInputError: If an argument is outside its range.
+    The question of `minimum_settling_time` turned round, with its arguments and errors: the time
+    [s] is given, the change, in the output's unit, is what the program makes large. It overshoots
+    within the band, here a share of the change, where that helps. Samples alone are looked at,
+    which is worth a part of a period.
 
     >>> double_integrator = control.ss([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], 0)
     >>> round(largest_step(double_integrator, 1.0, 2.0, band=1e-6), 1)  # (2 / 2)^2

@@ -8,6 +8,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats, check_positive
+from softgrip.checks import record
 from softgrip.control.pid import Gains
 from softgrip.errors import InvalidInputError
 
@@ -38,11 +39,6 @@ class ReactionCurve:
     delay: float
     slope: float
     gain: float = np.inf
-
-    @property
-    def time_constant(self) -> float:
-        """T = gain / slope, s."""
-        return self.gain / self.slope
 
 
 def reaction_curve(
@@ -149,16 +145,10 @@ def _line(t: Floats, y: Floats) -> tuple[float, float, float]:
 
 
 def _record(time: ArrayLike, output: ArrayLike, step: float, least: int) -> tuple[Floats, Floats]:
-    t, y = np.asarray(time, dtype=np.float64), np.asarray(output, dtype=np.float64)
-    if t.ndim != 1 or t.shape != y.shape or t.size < least:
+    t, y = record(at_least=least, time=time, output=output)
+    if not (np.all(np.diff(t) > 0) and np.ptp(y) > 0):
         raise InvalidInputError(
-            "time, output", expected=f"two arrays (N,) with N >= {least}", got=(t.shape, y.shape)
-        )
-    if not (np.isfinite(y).all() and np.all(np.diff(t) > 0) and np.ptp(y) > 0):
-        raise InvalidInputError(
-            "time, output",
-            expected="increasing times, finite outputs, a response",
-            got=(time, output),
+            "time, output", expected="increasing times, a response", got=(time, output)
         )
     if not np.isfinite(step) or step == 0:
         raise InvalidInputError("step", expected="a finite number other than 0", got=step)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from softgrip.arrays import Floats, check_positive
+from softgrip.checks import check_not_negative
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.plant import Gripper
 from softgrip.gripper.uncertainty import DAMPING_BOUND, STIFFNESS_BOUND
@@ -47,10 +48,7 @@ class GripperBatch:
                 expected="arrays of one shape (count, fingers)",
                 got=[a.shape for a in arrays],
             )
-        if not all(np.all(np.isfinite(a) & (a > 0)) for a in arrays):
-            raise InvalidInputError(
-                "damping, stiffness, gain", expected="finite numbers > 0", got="others"
-            )
+        check_positive(damping=self.damping, stiffness=self.stiffness, gain=self.gain)
 
     @classmethod
     def of(cls, *grippers: Gripper) -> "GripperBatch":
@@ -204,10 +202,7 @@ class Trial:
             raise InvalidInputError(
                 "target", expected="finite angles other than 0", got=self.target
             )
-        if not (0 <= self.noise < np.inf and self.delay_samples >= 0):
-            raise InvalidInputError(
-                "noise, delay_samples", expected=">= 0", got=(self.noise, self.delay_samples)
-            )
+        check_not_negative(noise=self.noise, delay_samples=self.delay_samples)
         if not all(0 < band < 1 for band in self.bands):
             raise InvalidInputError("bands", expected="shares between 0 and 1", got=self.bands)
         if len(self.feedforward) not in (0, self.periods):

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats, check_positive, read_only
+from softgrip.checks import check_not_negative
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.internal_model import ControllerMatrices, InternalModelController
 from softgrip.gripper.plant import Gripper, sampled, state_space
@@ -61,12 +62,9 @@ def run_gripper(
     """
     period = controller.matrices.period
     check_positive(duration=duration, limit=1.0 if np.isinf(limit) else limit, points=points)
-    if not (noise >= 0 and delay_samples >= 0 and duration >= period):
-        raise InvalidInputError(
-            "noise, delay_samples, duration",
-            expected=">= 0, >= 0, at least a period",
-            got=(noise, delay_samples, duration),
-        )
+    check_not_negative(noise=noise, delay_samples=delay_samples)
+    if duration < period:
+        raise InvalidInputError("duration", expected="at least a period", got=duration)
     count, step = len(gripper.fingers), period / points
     system = state_space(gripper)
     pushed = np.zeros((system.nstates, count))

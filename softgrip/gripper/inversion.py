@@ -68,14 +68,10 @@ def mean_inverse(gripper: Gripper) -> LeftInverse:
     ([1.0, 2.66, 3.61, 0.0], 15.66)
     """
     count = len(gripper.fingers)
-    return LeftInverse(
-        read_only(
-            [
-                np.array([1.0, f.damping, f.stiffness, 0.0]) / (count * f.gain)
-                for f in gripper.fingers
-            ]
-        )
-    )
+    rows = [
+        np.array([1.0, f.damping, f.stiffness, 0.0]) / (count * f.gain) for f in gripper.fingers
+    ]
+    return LeftInverse(read_only(rows))
 
 
 def moore_penrose_inverse(gripper: Gripper, *, adjoint: bool = False) -> LeftInverse:

@@ -45,16 +45,6 @@ class ShapedLoop:
         return control.feedback(self.loop, 1)
 
 
-def least_gamma(system: control.StateSpace) -> float:
-    """Return ``sqrt(1 + rho(X Z))`` with X, Z of the two Riccati equations; D = 0.
-
-    >>> round(least_gamma(control.ss(0, 1, 3, 0)) ** 2, 6)  # any k / s
-    2.0
-    """
-    X, Z = _riccati(system)
-    return _gamma(X, Z)
-
-
 def glover_mcfarlane(shape: control.StateSpace, *, factor: float = SUBOPTIMAL) -> ShapedLoop:
     """Return the loop of a shape and the controller that makes it most robust.
 
@@ -62,8 +52,13 @@ def glover_mcfarlane(shape: control.StateSpace, *, factor: float = SUBOPTIMAL) -
         shape: Plant times weight: minimal, continuous, D = 0.
         factor: On the least gamma, > 1.
 
+    The least gamma is ``sqrt(1 + rho(X Z))`` with X, Z of the two Riccati equations.
+
     Raises:
         InvalidInputError: If the factor is not above 1, or the shape has a direct term.
+
+    >>> round(glover_mcfarlane(control.ss(0, 1, 3, 0)).gamma ** 2, 6)  # any k / s
+    2.0
     """
     if not factor > 1 or np.any(shape.D) or shape.dt:
         raise InvalidInputError(
@@ -71,7 +66,7 @@ def glover_mcfarlane(shape: control.StateSpace, *, factor: float = SUBOPTIMAL) -
         )
     A, B, C = shape.A, shape.B, shape.C
     X, Z = _riccati(shape)
-    least = _gamma(X, Z)
+    least = float(np.sqrt(1 + np.max(np.linalg.eigvals(X @ Z).real)))
     square = (factor * least) ** 2
     F = -B.T @ X
     inner = (1 - square) * np.eye(len(A)) + X @ Z
@@ -137,10 +132,6 @@ def fit_roll_off(
 
     found = minimize_scalar(cost, bounds=(0.0, 4.0), method="bounded")
     return crossover * float(np.exp(found.x)), shaped(float(found.x))
-
-
-def _gamma(X: Floats, Z: Floats) -> float:
-    return float(np.sqrt(1 + np.max(np.linalg.eigvals(X @ Z).real)))
 
 
 def _riccati(system: control.StateSpace) -> tuple[Floats, Floats]:

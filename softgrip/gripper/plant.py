@@ -1,6 +1,6 @@
 """The gripper's plant: several fingers on one pump, Eq. (6.4)-(6.16), (6.26) and (6.27)."""
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from typing import final
 
 import control
@@ -94,12 +94,7 @@ class Gripper:
     @property
     def mean(self) -> FingerDynamics:
         """The finger whose parameters are the means of all."""
-        return FingerDynamics(
-            *(
-                float(np.mean([getattr(finger, name) for finger in self.fingers]))
-                for name in ("damping", "stiffness", "gain")
-            )
-        )
+        return FingerDynamics(*np.mean([astuple(f) for f in self.fingers], axis=0).tolist())
 
 
 PRINTED = Gripper((FingerDynamics(2.66, 3.61, 7.831), FingerDynamics(2.45, 3.06, 7.831)))

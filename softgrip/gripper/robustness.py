@@ -151,22 +151,18 @@ def box(
     Returns:
         list: ``points ** (2 fingers)`` grippers.
     """
-    side = np.linspace(-1, 1, points)
-    grid = np.array(np.meshgrid(*[side] * (2 * len(gripper.fingers)))).reshape(
-        2 * len(gripper.fingers), -1
-    )
+    fingers, side = gripper.fingers, np.linspace(-1, 1, points)
+    grid = np.array(np.meshgrid(*[side] * (2 * len(fingers)))).reshape(len(fingers), 2, -1)
     return [
         Gripper(
             tuple(
                 FingerDynamics(
-                    f.damping * (1 + damping * point[2 * k]),
-                    f.stiffness * (1 + stiffness * point[2 * k + 1]),
-                    f.gain,
+                    f.damping * (1 + damping * c), f.stiffness * (1 + stiffness * k), f.gain
                 )
-                for k, f in enumerate(gripper.fingers)
+                for f, (c, k) in zip(fingers, point, strict=True)
             )
         )
-        for point in grid.T
+        for point in np.moveaxis(grid, -1, 0)
     ]
 
 

@@ -9,8 +9,6 @@ the first row. Then the angles, the rows and "responds faster" (a softer finger 
 ahead at all times) agree, and the equivalent masses differ by a few percent only, as they should.
 """
 
-from dataclasses import replace
-
 import numpy as np
 from scipy.integrate import quad
 from scipy.special import erf
@@ -48,8 +46,6 @@ TRAVEL = 6.94e-3
 """Of the plunger in that step, m: the mean of the two angles is then that of those printed."""
 BOUND_RUNS = 7
 """Runs of which the printed bounds are the largest deviation (assumed)."""
-VOLUME_SPREAD = 0.03
-"""Finger to finger, of the air at rest (assumed)."""
 
 
 def largest_of(count: int) -> float:
@@ -97,31 +93,3 @@ def printed_gripper(*, spread: bool = True) -> RigParameters:
     between_runs = run_to_run() if spread else Spread()
     fingers = tuple(map(finger_of, OPEN_LOOP_ANGLES, INERTIA, DAMPING))
     return RigParameters(fingers, PUMP, spread=between_runs)
-
-
-def drawn_gripper(count: int, *, seed: int = 0, spread: bool = True) -> RigParameters:
-    """Return a gripper whose fingers differ by chance, as much as the printed two do.
-
-    Stiffness, inertia and damping of each finger are log-normal about the geometric means of the
-    two, with the deviation that two numbers give. They are the gripper's own, the same in each run.
-
-    Args:
-        count: Number of fingers, 1 to 5.
-        seed: Of this gripper.
-        spread: Whether runs differ.
-    """
-    pair = printed_gripper(spread=spread)
-    names = ("stiffness", "inertia", "damping")
-    logs = np.log([[getattr(finger, name) for name in names] for finger in pair.fingers])
-    normal = np.random.Generator(np.random.PCG64(seed)).standard_normal((count, 4))
-    drawn = np.exp(logs.mean(axis=0) + logs.std(axis=0, ddof=1) * normal[:, :3])
-    first = pair.fingers[0]
-    fingers = tuple(
-        replace(
-            first,
-            rest_volume=first.rest_volume * float(np.exp(VOLUME_SPREAD * more)),
-            **dict(zip(names, row.tolist(), strict=True)),
-        )
-        for row, more in zip(drawn, normal[:, 3], strict=True)
-    )
-    return replace(pair, fingers=fingers)

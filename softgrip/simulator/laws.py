@@ -1,10 +1,9 @@
 """The physics of the simulated rig: pressure, leakage, torque, and the slopes of all states."""
 
-from typing import Protocol
-
 import numpy as np
 
 from softgrip.arrays import Floats, Number
+from softgrip.gripper.grasp import DiscBetweenFingers
 from softgrip.pump.gas import charge_pressure
 from softgrip.simulator.chance import Chance
 from softgrip.simulator.parameters import FingerParameters, RigParameters
@@ -40,21 +39,6 @@ def finger_volume(angle: Number, gauge: Number, finger: FingerParameters) -> Num
     return finger.rest_volume + finger.torque_per_pressure * angle + finger.ballooning * gauge
 
 
-class Contact(Protocol):
-    """What the fingers touch; see `softgrip.gripper.grasp`."""
-
-    @property
-    def states(self) -> int:
-        """Number of states of its own; they start at zero."""
-        ...
-
-    def slopes(self, angle: Floats, own: Floats, slope: Floats) -> Floats:
-        """Write the slopes of its states, shape (states, runs), and return the torque on the
-        fingers at their angles, N m and rad, both of shape (fingers, runs).
-        """  # noqa: D205
-        ...
-
-
 class Plant:
     """The slopes of the states of fingers on one syringe, for a batch of runs.
 
@@ -69,7 +53,7 @@ class Plant:
     """
 
     def __init__(
-        self, parameters: RigParameters, chance: Chance, contact: Contact | None = None
+        self, parameters: RigParameters, chance: Chance, contact: DiscBetweenFingers | None = None
     ) -> None:
         self.parameters, self.contact = parameters, contact
         self.stiffness = self._column("stiffness") * chance.stiffness

@@ -11,6 +11,7 @@ from softgrip.arrays import Floats
 from softgrip.control.pid import PERIOD
 from softgrip.dynamics.integrate import RungeKutta
 from softgrip.errors import InvalidInputError
+from softgrip.gripper.grasp import DiscBetweenFingers
 from softgrip.pump.gas import GAS_CONSTANT
 from softgrip.simulator import motor
 from softgrip.simulator.chance import Chance
@@ -20,7 +21,6 @@ from softgrip.simulator.laws import (
     RATE,
     SENSED_ANGLE,
     SENSED_PRESSURE,
-    Contact,
     Plant,
 )
 from softgrip.simulator.parameters import RigParameters
@@ -88,7 +88,7 @@ class Simulation:
         first: int = 0,
         period: float = PERIOD,
         plunger: ArrayLike = 0.0,
-        contact: Contact | None = None,
+        contact: DiscBetweenFingers | None = None,
         step: float = LARGEST_STEP,
     ) -> None:
         if runs < 1 or seed < 0 or first < 0:

@@ -12,7 +12,7 @@ from softgrip.board.firmware.config import STEPS
 from softgrip.gripper.internal_model import PERIOD as LOOP_PERIOD
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.gripper_parameters import printed_gripper
-from softgrip.simulator.parameters import PumpParameters
+from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.simulation import Simulation
 
 PERIOD = 0.005
@@ -52,25 +52,28 @@ class EmulatedLink:
         self.closed = True
 
 
-def stiff(pump: PumpParameters) -> PumpParameters:
-    """Return a pump whose motor is where it is told to be: the board's ramps are the motor's."""
-    return replace(pump, speed_limit=1e4, acceleration_limit=1e9)
+def at_the_pins(parameters: RigParameters, *, seed: int = 0, position: int = 0) -> Simulation:
+    """Return a rig whose motor is where it is told to be: the board's ramps are the motor's.
+
+    Args:
+        parameters: Of the rig.
+        seed: Of chance.
+        position: Of the plunger at the start, steps from home.
+    """
+    pump = replace(parameters.pump, speed_limit=1e4, acceleration_limit=1e9)
+    plunger = position * pump.lead / STEPS
+    stiff = replace(parameters, pump=pump)
+    return Simulation(stiff, seed=seed, period=PERIOD, plunger=plunger)
 
 
 def finger(seed: int = 0, *, position: int = 200) -> Simulation:
     """Return the simulated rig of Design 1, its plunger so many steps from home."""
-    parameters = design_1()
-    pump = stiff(parameters.pump)
-    plunger = position * pump.lead / STEPS
-    parameters = replace(parameters, pump=pump)
-    return Simulation(parameters, seed=seed, period=PERIOD, plunger=plunger)
+    return at_the_pins(design_1(), seed=seed, position=position)
 
 
 def gripper(seed: int = 0) -> Simulation:
     """Return the simulated gripper of two fingers, its plunger drawn out."""
-    parameters = printed_gripper()
-    parameters = replace(parameters, pump=stiff(parameters.pump))
-    return Simulation(parameters, seed=seed, period=PERIOD)
+    return at_the_pins(printed_gripper(), seed=seed)
 
 
 class EmulatedFingers(EmulatedLink):
