@@ -20,13 +20,13 @@ from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance, data_file, data_folder
 from softgrip.simulator.chance import SEED, streams
 from softgrip.simulator.force_layer import (
-    Counts,
     ForceLayer,
     felt_force,
     layer_voltage,
     read_counts,
     volts,
 )
+from softgrip.simulator.sensors import Counts
 from softgrip.tactile.drift import DRIFT_WEIGHTS
 from softgrip.tactile.force import WEIGHTS, table_2_2
 from softgrip.units import GRAM_FORCE

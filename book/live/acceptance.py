@@ -11,16 +11,7 @@ from numpy.typing import ArrayLike
 from book.companion.style import GREY, LUDWICK, MEASURED, WIDTH, style
 from softgrip.board.calibration import SensorLine
 from softgrip.logs.reader import read_log
-from softgrip.logs.schema import Log
 from softgrip.rig.acceptance import Experiment, judge
-
-
-def _number(value: float) -> str:
-    return f"{value:.3g}" if np.isfinite(value) else "never"
-
-
-def _told(log: Log) -> str:
-    return "; ".join((str(log.header.provenance), *log.repairs))
 
 
 def bands_table(logs: Mapping[Experiment, Path | str]) -> pd.DataFrame:
@@ -29,17 +20,21 @@ def bands_table(logs: Mapping[Experiment, Path | str]) -> pd.DataFrame:
     Args:
         logs: Of steps, by experiment.
     """
-    return pd.DataFrame(
-        {
-            "experiment": f"{experiment}, {_told(read_log(path))}",
-            "quantity": band.quantity,
-            "band": f"{band.low:.3g} to {band.high:.3g} {band.unit} ({band.place})",
-            "found": _number(band.found),
-            "verdict": "pass" if band.passed else "**fail**",
-        }
-        for experiment, path in logs.items()
-        for band in judge(path, experiment)
-    )
+    rows = []
+    for experiment, path in logs.items():
+        log = read_log(path)
+        told = "; ".join((str(log.header.provenance), *log.repairs))
+        rows += [
+            {
+                "experiment": f"{experiment}, {told}",
+                "quantity": band.quantity,
+                "band": f"{band.low:.3g} to {band.high:.3g} {band.unit} ({band.place})",
+                "found": f"{band.found:.3g}" if np.isfinite(band.found) else "never",
+                "verdict": "pass" if band.passed else "**fail**",
+            }
+            for band in judge(path, experiment)
+        ]
+    return pd.DataFrame(rows)
 
 
 def draw_calibration(

@@ -1,10 +1,8 @@
 """What the firmware did on the emulated board, from a kept file."""
 
-from dataclasses import dataclass
-
 import pandas as pd
 
-from book.live.protocol import BITS, telemetry_bytes
+from book.live.protocol import BITS, TELEMETRY_BYTES
 from softgrip.board.firmware.header import build
 from softgrip.board.protocol import BAUD
 from softgrip.provenance import data_file, data_rows
@@ -12,17 +10,6 @@ from softgrip.provenance import data_file, data_rows
 FILE = "rig/emulated_board.csv"
 EMULATED_BITS = BITS + 1
 """Bit times of a byte on the emulated line: simavr 1.6 counts a parity bit that 8N1 has not."""
-
-
-@dataclass(frozen=True)
-class Measured:
-    """What was measured on the emulated board, what is wanted of it, and how it was measured."""
-
-    what: str
-    value: float
-    unit: str
-    wanted: str
-    how: str
 
 
 def emulated_table() -> pd.DataFrame:
@@ -43,7 +30,7 @@ def measured_firmware() -> str:
 
 def emulated_line() -> str:
     """Return by how much the emulated line is slower than a board's, in words."""
-    emulated, real = (1e3 * telemetry_bytes() * bits / BAUD for bits in (EMULATED_BITS, BITS))
+    emulated, real = (1e3 * TELEMETRY_BYTES * bits / BAUD for bits in (EMULATED_BITS, BITS))
     return (
         f"The emulated line is {EMULATED_BITS / BITS - 1:.0%} slower than a board's: simavr counts"
         f" a parity bit in each byte, which 8N1 has not. A telemetry frame takes {emulated:.2f} ms"

@@ -37,12 +37,7 @@ class ControlPanel:
     """
 
     def __init__(
-        self,
-        rig: Rig,
-        folder: Path | str,
-        *,
-        real_time: bool = True,
-        rest: float = REST,
+        self, rig: Rig, folder: Path | str, *, real_time: bool = True, rest: float = REST
     ) -> None:
         check_period(rig)
         self.rig, self.folder = rig, Path(folder)
@@ -176,11 +171,7 @@ class FinishedRun:
 
 
 def control_panel(
-    rig: Rig,
-    folder: Path | str | None = None,
-    *,
-    shown: str = "staircase",
-    real_time: bool = True,
+    rig: Rig, folder: Path | str | None = None, *, shown: str = "staircase", real_time: bool = True
 ) -> ControlPanel | FinishedRun:
     """Return the panel of a rig, to be the last expression of a cell.
 

@@ -13,6 +13,8 @@ from softgrip.board.protocol import MESSAGES, in_words
 
 FRAME = 2 + 2 + 1 + 1
 """Bytes of a frame beside its payload: id, number; CRC; the byte of COBS; the 0 at the end."""
+TELEMETRY_BYTES = protocol.TELEMETRY.layout.size + FRAME
+"""Of a telemetry frame on the line."""
 BITS = 10
 """Of a byte on the line, 8N1: a start bit and a stop bit beside the eight."""
 HOST_IDS = 128
@@ -86,31 +88,15 @@ def reason_table(reasons: type[IntEnum]) -> pd.DataFrame:
     return pd.DataFrame({"value": int(one), "name": in_words(one)} for one in reasons)
 
 
-def telemetry_bytes() -> int:
-    """Return the length of a telemetry frame on the line."""
-    return protocol.TELEMETRY.layout.size + FRAME
-
-
 def line_table() -> pd.DataFrame:
     """Tabulate the line: version, rate, and what of it telemetry takes."""
-    rate, frame = protocol.BAUD / BITS, telemetry_bytes()
-    return pd.DataFrame(
-        {
-            "what": [
-                "protocol version",
-                "checksum of the table",
-                "rate of the line",
-                "longest frame before stuffing",
-                "a telemetry frame takes",
-                "telemetry takes of the line",
-            ],
-            "value": [
-                str(protocol.PROTOCOL_VERSION),
-                f"`{protocol.TABLE:08x}`",
-                f"{protocol.BAUD} baud, 8N1: {rate / 1e3:.0f} kB/s",
-                f"{LARGEST} bytes",
-                f"{frame} bytes, {1e3 * frame / rate:.1f} ms",
-                f"{40 * frame / rate:.0%}",
-            ],
-        }
+    rate, frame = protocol.BAUD / BITS, TELEMETRY_BYTES
+    rows = (
+        ("protocol version", str(protocol.PROTOCOL_VERSION)),
+        ("checksum of the table", f"`{protocol.TABLE:08x}`"),
+        ("rate of the line", f"{protocol.BAUD} baud, 8N1: {rate / 1e3:.0f} kB/s"),
+        ("longest frame before stuffing", f"{LARGEST} bytes"),
+        ("a telemetry frame takes", f"{frame} bytes, {1e3 * frame / rate:.1f} ms"),
+        ("telemetry takes of the line", f"{40 * frame / rate:.0%}"),
     )
+    return pd.DataFrame(rows, columns=["what", "value"])

@@ -34,15 +34,10 @@ AT_ONCE = 4096
 class Link(Protocol):
     """What the driver needs of a line; times are seconds of the line's own clock."""
 
-    @property
-    def name(self) -> str:
-        """For messages."""
-        ...
-
-    @property
-    def real_time(self) -> bool:
-        """Whether its clock runs by itself; else only while one reads, as in emulation."""
-        ...
+    name: str
+    """For messages."""
+    real_time: bool
+    """Whether its clock runs by itself; else only while one reads, as in emulation."""
 
     def write(self, data: bytes) -> None:
         """Send bytes."""

@@ -121,10 +121,7 @@ def run_loop(
         measurement = np.asarray(plant.advance(sent, period), dtype=np.float64)
     shape = np.broadcast_shapes(np.shape(measurement), command.shape)
     return LoopResult(
-        read_only(time),
-        read_only(wanted),
-        _record(measured, shape),
-        _record(commands, shape),
+        read_only(time), read_only(wanted), _record(measured, shape), _record(commands, shape)
     )
 
 

@@ -29,15 +29,13 @@ class Tuned:
     Attributes:
         gains: The best gains.
         start: Those that it began with.
-        history: Best objective after each evaluation, shape (evaluations,): it never rises.
-        evaluations: Number of loops run.
+        history: Best objective after each loop that was run, shape (loops,): it never rises.
         converged: Whether the search ended by itself and not by the number of evaluations.
     """
 
     gains: Gains
     start: Gains
     history: Floats
-    evaluations: int
     converged: bool
 
 
@@ -74,11 +72,7 @@ class Itae:
 
 
 def tune(
-    simulate: Simulate,
-    start: Gains,
-    objective: Objective | None = None,
-    *,
-    evaluations: int = 300,
+    simulate: Simulate, start: Gains, objective: Objective | None = None, *, evaluations: int = 300
 ) -> Tuned:
     """Look for gains with a smaller objective, from given ones, by Nelder and Mead's simplex.
 
@@ -120,7 +114,7 @@ def tune(
         best, left = found.x, evaluations - len(values)
         converged = bool(found.success) and min(values) > (1 - LEAST_GAIN) * before
     history = read_only(np.minimum.accumulate(values))
-    return Tuned(at(best), start, history, len(values), converged)
+    return Tuned(at(best), start, history, converged)
 
 
 def _search(cost: Callable[[Floats], float], start: Floats, evaluations: int) -> OptimizeResult:

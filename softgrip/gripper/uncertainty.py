@@ -129,7 +129,9 @@ def bounding_weight(
         better, worse, best = (middle, worse, best) if found is None else (better, middle, found)
     assert best is not None  # a constant at the largest bound is always feasible
     top, low = (_left_factor(part) for part in (best[: order + 1], best[order + 1 :]))
-    found = _biproper(top, low, unit)
+    top, low = top / low[0], low / low[0]
+    rest = filter_state_space((top - top[0] * low)[1:], low)
+    found = control.ss(unit * rest.A, unit * rest.B, rest.C, top[0])
     # The program's tolerance may leave the weight below the bound by a percent.
     return found * float(max(1.0, np.max(size / np.abs(found(1j * w)).ravel())))
 
@@ -141,9 +143,3 @@ def _left_factor(squares: Floats) -> Floats:
     roots = np.roots(in_s)
     left = np.poly(roots[np.argsort(roots.real)][: len(squares) - 1]).real
     return np.asarray(left * np.sqrt(squares[-1]))
-
-
-def _biproper(top: Floats, low: Floats, unit: float) -> control.StateSpace:
-    top, low = top / low[0], low / low[0]
-    rest = filter_state_space((top - top[0] * low)[1:], low)
-    return control.ss(unit * rest.A, unit * rest.B, rest.C, top[0])

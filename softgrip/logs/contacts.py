@@ -80,6 +80,10 @@ class _PadLog:
     volts: Floats
     stretches: tuple[tuple[str, Rows], ...]
 
+    def refusal(self, expected: str, got: str) -> DataFileError:
+        """Return the error of this log."""
+        return DataFileError(self.path, expected=expected, got=got)
+
     def held(self, words: str, rows: Rows, channels: list[int], sign: float = 1.0) -> Rows:
         """Return rows that are held still, those in which the sum of some channels is largest.
 
@@ -95,11 +99,9 @@ class _PadLog:
                 first = int(np.where(still, strength, -np.inf).argmax())
                 self._check(rows[first : first + count])
                 return rows[first : first + count]
-        raise DataFileError(
-            self.path,
-            expected=f"{HELD:g} s after {words!r} in which no channel moves by more than "
-            f"{1e3 * STILL:g} mV",
-            got=f"none from {self.log['time'][rows[0]]:g} s on: take longer, and hold still",
+        raise self.refusal(
+            f"{HELD:g} s after {words!r} in which no channel moves by more than {1e3 * STILL:g} mV",
+            f"none from {self.log['time'][rows[0]]:g} s on: take longer, and hold still",
         )
 
     def _check(self, rows: Rows) -> None:
@@ -107,10 +109,9 @@ class _PadLog:
             counts = self.log[f"{name}_counts"][rows]
             bad = (counts < least) | (counts >= LARGEST_COUNT)
             if bad.any():
-                raise DataFileError(
-                    self.path,
-                    expected=f"{name}_counts between {least} and {LARGEST_COUNT - 1}",
-                    got=f"{counts[bad][0]:g} at {self.log['time'][rows][bad][0]:g} s: saturated, "
+                raise self.refusal(
+                    f"{name}_counts between {least} and {LARGEST_COUNT - 1}",
+                    f"{counts[bad][0]:g} at {self.log['time'][rows][bad][0]:g} s: saturated, "
                     "or a broken wire",
                 )
 
@@ -128,10 +129,9 @@ class _PadLog:
         for words, rows in self.stretches:
             if words == REST:
                 return self.mean(self.held(words, rows, [*range(ELEMENTS)], -1.0))
-        raise DataFileError(
-            self.path,
-            expected=f"the event {REST!r}",
-            got="none: begin a log with the steps of softgrip.rig.record_pad.calibration_steps",
+        raise self.refusal(
+            f"the event {REST!r}",
+            "none: begin a log with the steps of softgrip.rig.record_pad.calibration_steps",
         )
 
     def responses(self) -> Floats:
@@ -145,19 +145,14 @@ class _PadLog:
         wanted = [f"{PRESS}{k + 1}" for k in range(ELEMENTS)]
         pressed = {words: rows for words, rows in reversed(self.stretches) if words in wanted}
         if missing := [words for words in wanted if words not in pressed]:
-            raise DataFileError(
-                self.path,
-                expected=f"each element pressed once, events {wanted[0]!r} to {wanted[-1]!r}",
-                got=f"no {missing}: see softgrip.rig.record_pad.calibration_steps",
+            raise self.refusal(
+                f"each element pressed once, events {wanted[0]!r} to {wanted[-1]!r}",
+                f"no {missing}: see softgrip.rig.record_pad.calibration_steps",
             )
         full = np.array([self.mean(self.held(w, pressed[w], [k]))[k] for k, w in enumerate(wanted)])
         for name, change in zip(PAD_CHANNELS, full - rest, strict=False):
             if not change > 0:
-                raise DataFileError(
-                    self.path,
-                    expected=f"{name} to rise when pressed",
-                    got=f"a change of {change:g} V",
-                )
+                raise self.refusal(f"{name} to rise when pressed", f"a change of {change:g} V")
         found: Floats = np.clip((self.volts[:, :ELEMENTS] - rest) / (full - rest), 0, 1)
         return found
 
@@ -211,7 +206,7 @@ def read_contacts(path: Path | str, labels: Sequence[Label] = ()) -> Contacts:
     pad = _open(path, labels)
     given = [name for name in TRUTH if name in pad.log.columns]
     if 0 < len(given) < len(TRUTH):
-        raise DataFileError(pad.path, expected=f"the columns {list(TRUTH)}", got=f"only {given}")
+        raise pad.refusal(f"the columns {list(TRUTH)}", f"only {given}")
     responses = pad.responses()
     found: list[tuple[str, str, Rows]] = []
     for words, rows in pad.stretches:
@@ -228,10 +223,9 @@ def read_contacts(path: Path | str, labels: Sequence[Label] = ()) -> Contacts:
         if failure and len(found) == before:
             raise failure
     if not found:
-        raise DataFileError(
-            pad.path,
-            expected="contacts: events, or labels, such as 'line: small carrot' or 'contact'",
-            got=f"only {sorted({words for words, _ in pad.stretches})}",
+        raise pad.refusal(
+            "contacts: events, or labels, such as 'line: small carrot' or 'contact'",
+            f"only {sorted({words for words, _ in pad.stretches})}",
         )
     kinds = np.array([kind if kind in KINDS else "" for kind, _, _ in found])
     one = [int(at[len(at) // 2]) for _, _, at in found]
@@ -258,10 +252,9 @@ def read_weights(path: Path | str, labels: Sequence[Label] = ()) -> PadReadings:
     pad = _open(path, labels)
     weights = [(words, rows) for words, rows in pad.stretches if words.startswith(WEIGHT)]
     if not weights:
-        raise DataFileError(
-            pad.path,
-            expected="known weights: events, or labels, such as 'weight: 20 gf'",
-            got="none: see softgrip.rig.record_pad.weight_steps",
+        raise pad.refusal(
+            "known weights: events, or labels, such as 'weight: 20 gf'",
+            "none: see softgrip.rig.record_pad.weight_steps",
         )
     layer = [pad.at_rest()[ELEMENTS]]
     layer += [pad.mean(pad.held(w, rows, [ELEMENTS]))[ELEMENTS] for w, rows in weights]

@@ -15,8 +15,9 @@ from softgrip.logs.writer import INSTEAD, LogWriter
 class RunLog:
     """A `LogWriter` behind a queue; a context manager.
 
-    A disk that is full, or a row that cannot be written, ends the log and not the run: `failure`
-    then says what happened, and a line on the standard error stream says it at once.
+    An error that ends the run is told in the last row. A disk that is full, or a row that cannot be
+    written, ends the log and not the run: `failure` then says what happened, and a line on the
+    standard error stream says it at once.
 
     Args:
         path, header, more: As of `LogWriter`, whose errors on opening are raised here too.
@@ -80,7 +81,9 @@ class RunLog:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *error: object) -> None:
+    def __exit__(self, kind: type | None, error: object, trace: object) -> None:
+        if kind is not None:  # Ctrl-C too: the log says why it ends
+            self.note(f"ended by {kind.__name__}: {error}")
         self.close()
 
 

@@ -17,24 +17,14 @@ class Rig(Protocol):
     simulated gripper of one run, so that controllers and loops need not know what they drive.
     """
 
-    @property
-    def period(self) -> float:
-        """Sampling period, s."""
-        ...
-
-    @property
-    def fingers(self) -> int:
-        """Number of fingers with a flex sensor."""
-        ...
-
-    @property
-    def real_time(self) -> bool:
-        """Whether its time goes on by itself, as a board's does, and not only when asked.
-
-        Then it keeps the pace of a clock, and hears an emergency stop while another thread waits
-        for a sample; else nothing can be said to it but between two periods.
-        """
-        ...
+    period: float
+    """Sampling period, s."""
+    fingers: int
+    """Number of fingers with a flex sensor."""
+    real_time: bool
+    """Whether its time goes on by itself, as a board's does, and not only when asked. Then it keeps
+    the pace of a clock, and hears an emergency stop while another thread waits for a sample; else
+    nothing can be said to it but between two periods."""
 
     def measure(self) -> Measurement:
         """Return what the sensors say now."""

@@ -124,9 +124,6 @@ def record(
                 log.write(event=plain(connection.take_event()), **row)
                 samples += 1
                 progress(row, duration)
-        except BaseException as error:  # Ctrl-C too: the log says why it ends
-            log.note(f"ended by {type(error).__name__}: {error}")
-            raise
         finally:
             try:
                 connection.stop()

@@ -71,23 +71,19 @@ def record_pad(
     header = replace(rig.header(), set_up="pad", period=TELEMETRY_PERIOD, notes=notes)
     start, samples, end = None, 0, 0.0
     with RunLog(Path(path), header) as log:
-        try:
-            for words, seconds in given:
-                if words:
-                    say(words)
-                time, end, event = -1.0, end + seconds, words
-                while time <= end - TELEMETRY_PERIOD / 2:
-                    told = rig.listen()
-                    start = told.time if start is None else start
-                    time = told.time - start
-                    event = "; ".join(filter(None, (plain(event), plain(rig.take_event()))))
-                    row = _row(told, time)
-                    log.write(event=event, **row)
-                    event, samples = "", samples + 1
-                    progress(row, duration)
-        except BaseException as error:
-            log.note(f"ended by {type(error).__name__}: {error}")
-            raise
+        for words, seconds in given:
+            if words:
+                say(words)
+            time, end, event = -1.0, end + seconds, words
+            while time <= end - TELEMETRY_PERIOD / 2:
+                told = rig.listen()
+                start = told.time if start is None else start
+                time = told.time - start
+                event = "; ".join(filter(None, (plain(event), plain(rig.take_event()))))
+                row = _row(told, time)
+                log.write(event=event, **row)
+                event, samples = "", samples + 1
+                progress(row, duration)
     return Recording(Path(path), samples, (), log.failure)
 
 

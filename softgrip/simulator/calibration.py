@@ -116,9 +116,7 @@ def calibrated(printed: PrintedFinger, *, spread: bool = True) -> RigParameters:
         [[square.real, pole.real], [square.imag, pole.imag]], [pull.real, pull.imag]
     )
     between_runs = Spread(
-        stiffness=n * SPREAD_RMS / SPREAD_ANGLE,
-        damping=DAMPING_SPREAD / DAMPING_RATIO,
-        leakage=0.3,
+        stiffness=n * SPREAD_RMS / SPREAD_ANGLE, damping=DAMPING_SPREAD / DAMPING_RATIO, leakage=0.3
     )
     return RigParameters(
         (replace(bare, inertia=float(inertia), damping=float(damping)),),

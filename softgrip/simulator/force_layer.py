@@ -9,12 +9,10 @@ is assumed, in `ForceLayer`.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.signal import lfilter
 
 from softgrip.arrays import Floats
-
-Counts = NDArray[np.int64]
+from softgrip.simulator.sensors import Counts
 
 
 @dataclass(frozen=True)

@@ -15,18 +15,8 @@ from scipy.special import erf
 
 from softgrip.gripper.plant import PRINTED
 from softgrip.gripper.uncertainty import DAMPING_BOUND, STIFFNESS_BOUND
-from softgrip.simulator.calibration import (
-    DESIGN_1,
-    FULL_ANGLE,
-    FULL_PRESSURE,
-    TORQUE_PER_PRESSURE,
-)
-from softgrip.simulator.parameters import (
-    FingerParameters,
-    PumpParameters,
-    RigParameters,
-    Spread,
-)
+from softgrip.simulator.calibration import DESIGN_1, FULL_ANGLE, FULL_PRESSURE, TORQUE_PER_PRESSURE
+from softgrip.simulator.parameters import FingerParameters, PumpParameters, RigParameters, Spread
 from softgrip.units import DEG, ML
 
 SYRINGE = 150 * ML

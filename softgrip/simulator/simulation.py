@@ -15,14 +15,7 @@ from softgrip.gripper.grasp import DiscBetweenFingers
 from softgrip.pump.gas import GAS_CONSTANT
 from softgrip.simulator import motor
 from softgrip.simulator.chance import Chance
-from softgrip.simulator.laws import (
-    AMOUNT,
-    ANGLE,
-    RATE,
-    SENSED_ANGLE,
-    SENSED_PRESSURE,
-    Plant,
-)
+from softgrip.simulator.laws import AMOUNT, ANGLE, RATE, SENSED_ANGLE, SENSED_PRESSURE, Plant
 from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.sensors import Measurement, measure
 

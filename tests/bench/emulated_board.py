@@ -1,9 +1,23 @@
 """Keep what the bench says of the emulated board, for the book: ``data/rig/emulated_board.csv``."""
 
-from book.live.emulated import FILE, Measured
+from dataclasses import dataclass
+
+from book.live.emulated import FILE
 from softgrip.board.firmware.header import build
 from softgrip.kept import Kept
 from tests.bench.board import entries
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What was measured on the emulated board, what is wanted of it, and how it was measured."""
+
+    what: str
+    value: float
+    unit: str
+    wanted: str
+    how: str
+
 
 KEPT = Kept(
     FILE,

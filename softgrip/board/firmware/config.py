@@ -149,11 +149,7 @@ def _stops() -> list[tuple[str, ...]]:
             "CLEAR",
         ),
         ("an end of the stroke", "never passed by a step, and braked for", "the other way"),
-        (
-            "not homed since the reset",
-            "no pushing; drawing back stops at the switch",
-            "HOME",
-        ),
+        ("not homed since the reset", "no pushing; drawing back stops at the switch", "HOME"),
         (
             f"switch pressed beyond {value['SWITCH_STEPS']} steps from home",
             "stops at once, latched, position no longer trusted",
