@@ -5,7 +5,8 @@ What is proved by hand (each factor of `section.torque` and Eq. (3.10) is monoto
 - the objective falls with t, which is in no other constraint: t is at its lower bound;
 - it grows with w: for given a and b, w is as large as its bound and Eq. (3.21) allow;
 - ``g = (b - t) A_c / A_w`` grows with a, b and w; ``A_c / A_w`` grows with a and w and falls with
-  b; so T and theta in a box of a and b lie below what its corners give.
+  b; so T and theta in a box of a and b lie below what its corners give, and their sum or product
+  does.
 
 What is left is a rectangle of a and b, cut into ever smaller boxes; a box whose bound does not
 reach the design's value is dropped, and when none is left the design is proved to be within the
@@ -17,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softgrip.actuator.bending import modified_moment
-from softgrip.actuator.design import DesignProblem, objective
+from softgrip.actuator.design import DesignProblem, combine, objective
 from softgrip.actuator.optimize import Design, evaluate, optimal_design
 from softgrip.actuator.section import Section, wall_stress_ratio
 from softgrip.arrays import Floats, check_positive
@@ -172,7 +173,7 @@ def upper_bound(problem: DesignProblem, boxes: Floats) -> Floats:
     curvature = (P / 2 * lever / (E * modified_moment(n, 1.0, 1.0) * low ** (1 + n))) ** (1 / n)
     longer = 1 + P * wall_stress_ratio(Section(a_high, b_low, w, t)) / E
     angle = n / (n + 1) * curvature * problem.length * longer
-    bound = torque / problem.torque_scale + angle / problem.angle_scale
+    bound = combine(problem.combined, torque / problem.torque_scale, angle / problem.angle_scale)
     return np.where(empty, -np.inf, bound)
 
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from math import inf, isfinite, pi
-from typing import Any
+from typing import Any, Literal, get_args
 
 from softgrip.actuator.bending import Finger, bending_angle, check_power
 from softgrip.actuator.frequency import stiffness_product, stiffness_product_for
@@ -13,6 +13,7 @@ from softgrip.materials.table import material
 from softgrip.units import MM, MPa
 
 Range = tuple[float, float]
+Combined = Literal["sum", "product"]
 DIMENSIONS = ("top", "bottom", "width", "wall")
 
 
@@ -91,6 +92,7 @@ class DesignProblem:
         torque_scale, angle_scale: What T and theta are divided by, N m and rad (Section 3.3).
         bounds: Of the dimensions.
         band: Of the natural frequency, or None.
+        combined: The sum of Eq. (3.17), or the product of torque and angle.
     """
 
     pressure: float = 0.15 * MPa
@@ -101,6 +103,7 @@ class DesignProblem:
     angle_scale: float = 1.4 * pi
     bounds: Bounds = field(default_factory=Bounds)
     band: FrequencyBand | None = None
+    combined: Combined = "sum"
 
     def __post_init__(self) -> None:
         check_positive(
@@ -111,6 +114,10 @@ class DesignProblem:
             angle_scale=self.angle_scale,
         )
         check_power(self.fractional_power)
+        if self.combined not in get_args(Combined):
+            raise InvalidInputError(
+                "combined", expected=f"one of {get_args(Combined)}", got=self.combined
+            )
 
     @classmethod
     def for_material(cls, name: str, **others: Any) -> "DesignProblem":
@@ -146,11 +153,16 @@ class DesignProblem:
         )
 
 
+def combine(combined: Combined, torque: Number, angle: Number) -> Number:
+    """Return the sum or the product of ``T / T_0`` and ``theta / theta_0``."""
+    return torque + angle if combined == "sum" else torque * angle
+
+
 def objective(problem: DesignProblem, section: Section) -> Number:
-    """Return ``T / T_0 + theta / theta_0``, what is made large; defined where b >= t."""
+    """Return what is made large, ``T / T_0 + theta / theta_0`` or the product, where b >= t."""
     bent = bending_angle(problem.finger(section), problem.pressure)
     pushed = torque(section, problem.pressure)
-    return pushed / problem.torque_scale + bent / problem.angle_scale
+    return combine(problem.combined, pushed / problem.torque_scale, bent / problem.angle_scale)
 
 
 def product(problem: DesignProblem, section: Section) -> Number:

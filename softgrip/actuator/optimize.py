@@ -11,10 +11,12 @@ import numpy as np
 from softgrip.actuator.bending import Finger, bending_angle
 from softgrip.actuator.design import (
     DIMENSIONS,
+    Combined,
     DesignProblem,
     InfeasibleDesignError,
     Range,
     check_feasible,
+    combine,
     objective,
     product,
 )
@@ -119,7 +121,7 @@ def optimal_design(problem: DesignProblem, start: Section | None = None) -> Desi
         )
         if not np.isfinite(guess).all():
             raise InvalidInputError("start", expected="finite dimensions", got=start)
-    solver = _solver()
+    solver = _solver(problem.combined)
     with np.errstate(divide="ignore"):
         found = solver(
             x0=np.log(guess),
@@ -147,18 +149,18 @@ def optimal_design(problem: DesignProblem, start: Section | None = None) -> Desi
 
 
 @cache
-def _solver() -> Any:
+def _solver(combined: Combined) -> Any:
     """Build the nonlinear program once: all numbers of a problem are parameters of it."""
     logs, p = ca.SX.sym("logs", 3), ca.SX.sym("p", 7)
     a, b, w = (ca.exp(logs[i]) for i in range(3))
     P, E, n, length, torque_scale, angle_scale, t = (p[i] for i in range(7))
     section = Section(a, b, w, t)
-    finger = Finger(section, length, E, n)
-    total = torque(section, P) / torque_scale + bending_angle(finger, P) / angle_scale
+    bent = bending_angle(Finger(section, length, E, n), P)
+    total = combine(combined, torque(section, P) / torque_scale, bent / angle_scale)
     constraints = ca.vertcat(
         section.height / MM, ca.log(E) + ca.log(w) + (n + 2) * ca.log(section.height)
     )
-    program = {"x": logs, "p": p, "f": -ca.log(total), "g": constraints}
+    program: dict[str, Any] = {"x": logs, "p": p, "f": -ca.log(total), "g": constraints}
     return ca.nlpsol("design", "ipopt", program, OPTIONS)
 
 

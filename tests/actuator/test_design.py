@@ -40,6 +40,7 @@ def problems(draw):
         torque_scale=draw(st.floats(0.1, 1.0)),
         angle_scale=draw(st.floats(0.5, 8.0)),
         bounds=draw(st.sampled_from([Bounds(), PRINTED])),
+        combined=draw(st.sampled_from(["sum", "product"])),
     )
     if draw(st.booleans()):
         # A band within what the box allows, by the frequency of two of its sections.
@@ -281,6 +282,7 @@ def test_heights_and_bottoms_that_cannot_be_met_are_named():
         (lambda: Bounds(width=(0.003, 0.03)), "width"),
         (lambda: DesignProblem(pressure=0.0), "pressure"),
         (lambda: DesignProblem(fractional_power=0.5), "fractional_power"),
+        (lambda: DesignProblem(combined="ratio"), "combined"),
         (lambda: FrequencyBand(3.0, 2.0), "low, high"),
         (lambda: manufacturable(DesignProblem(), {"top": 0.001}), "steps"),
     ],
@@ -302,6 +304,6 @@ def test_a_solver_that_gives_up_says_so(monkeypatch):
     few = {**optimize.OPTIONS, "ipopt.max_iter": 0}
     program = {"x": x, "p": p, "f": ca.sumsqr(x - 1), "g": ca.vertcat(x[0], x[1])}
     stuck = ca.nlpsol("stuck", "ipopt", program, few)
-    monkeypatch.setattr(optimize, "_solver", lambda: stuck)
+    monkeypatch.setattr(optimize, "_solver", lambda combined: stuck)
     with pytest.raises(optimize.SolverError, match="iterations"):
         optimal_design(DesignProblem(angle_scale=pi))
