@@ -35,6 +35,7 @@ from softgrip.actuator.printed import (
     FREQUENCY_MASS,
     FREQUENCY_POWER,
     SUM_POWER,
+    WEIGHT_POWER,
     table_3_1,
 )
 from softgrip.actuator.section import Section, torque
@@ -91,7 +92,8 @@ def figure_3_a() -> Figure:
     angles = [free_bending(f, 0.15 * MPa) / (290 * DEG) for f in fingers]
     sums = [objective(p, optimum()) / 2.36 for p in problems]
     curves = (
-        ("frequency, 2.62 rad/s", frequencies, BLUE, "-", FREQUENCY_POWER),
+        ("frequency, 2.62 rad/s, M in kg", frequencies, BLUE, "-", FREQUENCY_POWER),
+        ("frequency, M in N", np.multiply(frequencies, 9.80665**0.5), SKY, "-", WEIGHT_POWER),
         ("angle, 290 deg", angles, ORANGE, "--", ANGLE_POWER),
         ("sum, 2.36", sums, GREEN, "-.", SUM_POWER),
     )

@@ -1,6 +1,6 @@
 """Recomputation of the numbers printed in Chapter 3."""
 
-from math import pi
+from math import gcd, hypot, nan, pi, sqrt, tanh
 
 import numpy as np
 from scipy.optimize import brentq
@@ -8,30 +8,37 @@ from scipy.optimize import brentq
 from book.chapter_3.stepped import identified_row
 from book.chapter_3.torque_and_bending import LENGTH
 from book.chapter_4.identified_model import identified_model
+from book.companion.relations import ratio
 from book.companion.verdict import simulated
-from softgrip.actuator.bending import Finger, free_bending
+from softgrip.actuator.bending import Finger
 from softgrip.actuator.certificate import certified_design
-from softgrip.actuator.design import Bounds, DesignProblem, objective
+from softgrip.actuator.design import (
+    Bounds,
+    Combined,
+    DesignProblem,
+    FrequencyBand,
+    InfeasibleDesignError,
+    objective,
+)
 from softgrip.actuator.frequency import natural_frequency, rubber_mass
-from softgrip.actuator.printed import FREQUENCY_MASS, section, table_3_1, table_3_2, table_3_3
+from softgrip.actuator.printed import section, table_3_1, table_3_2, table_3_3
 from softgrip.actuator.section import Section, chamber_area, torque
 from softgrip.control.lqr import FINGER, Weights, linear_settling_time
 from softgrip.control.lqr import step_response as lqr_response
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.second_order import SecondOrder, step_response
 from softgrip.logs.steps import judge_step_log
-from softgrip.materials.table import material
 from softgrip.provenance import data_file
 from softgrip.units import DEG, MM, MPa
 
-TORQUE_SCALE, ANGLE_SCALE = 0.4, 1.4 * pi
 G = 9.80665
 DENSITY = {"Design 1(E1)": 1080.0, "Design 2(E1)": 1080.0, "Design 3(E2)": 1060.0}
 """Of the cured rubber, kg/m^3, from the supplier's data sheets (the dissertation has none)."""
-FULL_ANGLE = {"Design 1(E1)": 206 * DEG, "Design 2(E1)": 201 * DEG, "Design 3(E2)": 232 * DEG}
-"""Angles at 0.15 MPa that Section 3.4 prints."""
-LARGEST_TORQUE = {"Design 1(E1)": 0.359, "Design 3(E2)": 0.15}
-"""Torques of Section 3.4: at 0.25 MPa, and the plateau of Design 3, N m."""
+
+
+def highest_power(power: float) -> float:
+    """Return the highest power of the pressure in Eq. (3.10), T being proportional to it."""
+    return 1 + 1 / power
 
 
 def section_torque(pressure: float, wall_pulls: bool = False) -> float:
@@ -46,149 +53,221 @@ def section_torque(pressure: float, wall_pulls: bool = False) -> float:
     return subtracted if wall_pulls else 2 * chamber - subtracted
 
 
-def bending(pressure: float, power: float) -> float:
-    """Return the angle of Design 1 by Eq. (3.10), deg, at a pressure in MPa."""
-    finger = Finger(section("Opt. parameters"), fractional_power=power)
-    return float(free_bending(finger, pressure * MPa)) / DEG
+def objective_sum(
+    name: str,
+    power: float,
+    pressure: float,
+    modulus: float,
+    torque_scale: float,
+    angle_scale: float,
+) -> float:
+    """Return the sum of Eq. (3.20) for a section of Table 3.1; MPa, N m, and parts of pi."""
+    problem = DesignProblem(
+        pressure * MPa,
+        modulus * MPa,
+        power,
+        torque_scale=torque_scale,
+        angle_scale=angle_scale * pi,
+    )
+    return float(objective(problem, section(name)))
 
 
-def objective_sum(name: str, power: float) -> float:
-    """Return the sum of Eq. (3.20) at 0.15 MPa for a section of Table 3.1."""
-    return float(objective(DesignProblem(fractional_power=power), section(name)))
+def angle_left(
+    total: float, torque: float, at: float, of: float, torque_scale: float, angle_scale: float
+) -> float:
+    """Return what a sum of Eq. (3.20) leaves for the angle, deg.
 
-
-def sum_of_measured(design: str) -> float:
-    """Return the sum of Eq. (3.20) from the printed torque and angle, torque linear in pressure.
-
-    Design 3's torque is its plateau, more than which it does not reach at any pressure.
+    Args:
+        total: The sum.
+        torque: At the pressure `of`, N m; Eq. (3.4) is proportional to pressure.
+        at: Pressure of the sum, in the unit of `of`.
+        torque_scale, angle_scale: N m, and a part of pi.
     """
-    share = 0.15 / 0.25 if design != "Design 3(E2)" else 1.0
-    return LARGEST_TORQUE[design] * share / TORQUE_SCALE + FULL_ANGLE[design] / ANGLE_SCALE
+    return (total - torque * at / of / torque_scale) * angle_scale * pi / DEG
+
+
+def sum_of_measured(
+    torque: float,
+    angle: float,
+    torque_scale: float,
+    angle_scale: float,
+    share: float = 1.0,
+    section_name: str = "Opt. parameters",
+) -> float:
+    """Return the sum of Eq. (3.20) from a measured torque, N m, and an angle, deg.
+
+    Args:
+        torque, angle: As printed.
+        torque_scale, angle_scale: N m, and a part of pi.
+        share: Of the torque that there is at the pressure of the angle.
+        section_name: Whose torque it is by Eq. (3.4), where that of the optimum is printed.
+    """
+    weaker = section_torque_ratio(section_name)
+    return torque * share * weaker / torque_scale + angle * DEG / (angle_scale * pi)
+
+
+def section_torque_ratio(name: str) -> float:
+    """Return the torque of a section of Table 3.1 over that of the optimum, by Eq. (3.4)."""
+    return float(torque(section(name), 1.0) / torque(section("Opt. parameters"), 1.0))
+
+
+def height_limit(end: str, stated: float) -> float:
+    """Return the least or largest height that the sections of Tables 3.1 and 3.2 need, mm."""
+    sections = [*table_3_1().values(), *(row.section for row in table_3_2())]
+    heights = [stated, *(round(float(found.height) / MM, 6) for found in sections)]
+    return min(heights) if end == "least" else max(heights)
+
+
+def step_of_the_optimum() -> float:
+    """Return the largest step, in whole 0.01 mm, that divides the optimum of Table 3.1, mm."""
+    best = section("Opt. parameters")
+    sizes = (best.top, best.bottom, best.width, best.wall)
+    return gcd(*(round(float(size) / MM * 100) for size in sizes)) / 100
+
+
+def _number(row: str) -> int:
+    """Return the number in "row 1": a bare number would be read as printed, and so as rounded."""
+    return int(row.removeprefix("row "))
 
 
 def optimum(
     name: str,
-    exchanged: bool = False,
-    bottom_limit: float = 24.0,
-    top_limit: float = 5.0,
-    power: float = 1.045,
-    pressure: float = 0.15,
+    row: str = "",
+    power: float = 1.0,
+    mass: float = 0.36,
+    combined: Combined = "product",
+    bottom_limit: float = 4.0,
+    height_limit: float = 24.0,
+    highest: float | None = None,
 ) -> float:
-    """Return a dimension of the best section of Eq. (3.17), mm, proved to be the best.
+    """Return a dimension of the best section, mm, proved to be the best; by default his script's.
 
-    As Section 3.3 prints the ranges, a lies in 2 to 5 mm and b in 14 to 24 mm; exchanged, the
-    other way about. Limits are the upper ones, mm; the pressure is in MPa.
+    Args:
+        name: Of the dimension.
+        row: Of Table 3.2, "row 1" to "row 4", whose band the frequency keeps; none for Table 3.1.
+        power: n.
+        mass: M_1 = M_2, kg.
+        combined: Product or sum of torque and angle, at 0.15 MPa.
+        bottom_limit: Largest b, mm.
+        height_limit: Largest a + b, mm.
+        highest: Upper end of the band, if not that of the row, rad/s.
+
+    Returns:
+        float: NaN if no section keeps the band.
     """
-    low = {"top": 14 * MM, "bottom": 2 * MM} if exchanged else {"top": 2 * MM, "bottom": 14 * MM}
-    bounds = Bounds(top=(low["top"], top_limit * MM), bottom=(low["bottom"], bottom_limit * MM))
-    problem = DesignProblem(pressure=pressure * MPa, fractional_power=power, bounds=bounds)
-    return float(getattr(certified_design(problem).design.section, name)) / MM
-
-
-def banded_optimum(
-    row: str, name: str, power: float, mass: float, bottom_limit: float = 5.0
-) -> float:
-    """Return a dimension of the best section of Eq. (3.20), mm, for a row of Table 3.2, 1 to 4.
-
-    The range of a ends at 20 mm, as Section 3.5 says; `mass` is M_1 = M_2, kg.
-    """
-    problem = table_3_2()[int(row) - 1].problem(
-        fractional_power=power, mass=mass, bottom_limit=bottom_limit * MM
-    )
-    return float(getattr(certified_design(problem).design.section, name)) / MM
+    bounds = Bounds(bottom=(2 * MM, bottom_limit * MM), height=(18 * MM, height_limit * MM))
+    band = None
+    if row:
+        printed = table_3_2()[_number(row) - 1]
+        band = FrequencyBand(printed.low, highest or printed.high, mass, mass)
+    problem = DesignProblem(fractional_power=power, bounds=bounds, band=band, combined=combined)
+    try:
+        return float(getattr(certified_design(problem).design.section, name)) / MM
+    except InfeasibleDesignError:
+        return nan
 
 
 @simulated
 def stepped_frequency(row: str) -> float:
     """Return what second-order identification says of simulated steps to 60 deg, rad/s."""
-    return identified_row(int(row)).natural_frequency.value
+    return identified_row(_number(row)).natural_frequency.value
 
 
-def modulus(design: str) -> float:
-    """Return E of the rubber by Table 5.1, MPa."""
-    rubber = "Dragon Skin FX Pro" if design == "Design 3(E2)" else "Dragon Skin 20"
-    return material(rubber).young_modulus / MPa
+def rubber_weight(design: str, filled: float = 0.0) -> float:
+    """Return the weight of the rubber over the length, N, with a part of the chamber filled."""
+    found, density = table_3_3()[design].section, DENSITY[design]
+    inside = filled * density * LENGTH * float(chamber_area(found))
+    return G * (float(rubber_mass(found, LENGTH, density)) + inside)
 
 
-def finger_length() -> float:
-    """Return the length of Section 3.4, m."""
-    return LENGTH
-
-
-def rubber_weight(design: str) -> float:
-    """Return the weight of the rubber over the length, N, end caps and partitions not counted."""
-    return G * float(rubber_mass(table_3_3()[design].section, LENGTH, DENSITY[design]))
-
-
-def estimated_frequency(
-    design: str,
-    power: float = 1.0,
-    as_printed: bool = True,
+def frequency_at(
+    top: float,
+    bottom: float,
+    power: float,
+    mass: float,
+    modulus: float = 0.34,
+    length: float = 94.0,
+    newtons: bool = False,
 ) -> float:
-    """Return omega_n of Eq. (3.16), rad/s, from a row of Table 3.3.
+    """Return omega_n of Eq. (3.16), rad/s, for a and b in mm, the rest as in the optimum.
 
-    As printed, M is a weight in newtons and L is 0.94 m; else M is the same number in kilograms
-    and L is 94 mm.
+    Args:
+        top, bottom: a and b, mm.
+        power: n.
+        mass: M, kg, or N if `newtons`.
+        modulus: E, MPa.
+        length: L, mm.
+        newtons: Whether M is a weight.
     """
-    row = table_3_3()[design]
-    mass, length = (row.weight / G, row.length) if as_printed else (row.weight, LENGTH)
-    return float(natural_frequency(Finger(row.section, length, row.young_modulus, power), mass))
+    best = section("Opt. parameters")
+    changed = Section(top * MM, bottom * MM, best.width, best.wall)
+    finger = Finger(changed, length * MM, modulus * MPa, power)
+    return float(natural_frequency(finger, mass / G if newtons else mass))
 
 
-def frequency_error(design: str) -> float:
-    """Return how far the printed estimate lies from the printed measurement, % of the latter."""
-    row = table_3_3()[design]
-    return 100 * abs(row.estimated / row.measured - 1)
+def scaled_frequency(
+    frequency: float,
+    mass: tuple[float, float],
+    width: tuple[float, float] = (1.0, 1.0),
+    modulus: tuple[float, float] = (1.0, 1.0),
+) -> float:
+    """Return omega_n of Eq. (3.16) from that of a finger of the same height, length and n.
+
+    Args:
+        frequency: Of the other finger.
+        mass, width, modulus: M, w and E of this one and of the other.
+    """
+    stiffer, heavier = modulus[0] / modulus[1] * width[0] / width[1], mass[0] / mass[1]
+    return frequency * sqrt(stiffer / heavier)
 
 
-def extreme_error(which: str) -> float:
-    """Return the least or the largest error of Table 3.3, %."""
-    errors = [frequency_error(design) for design in table_3_3()]
-    return min(errors) if which == "least" else max(errors)
-
-
-def pole(part: str, frequency: float = 2.86, damping_ratio: float = 0.7) -> float:
+def pole(part: str, frequency: float, damping_ratio: float) -> float:
     """Return the real or the imaginary part of the upper pole, rad/s."""
     rate = SecondOrder(frequency, damping_ratio).rates[0]
     return float(-rate.real if part == "real" else abs(rate.imag))
 
 
-def slowest_settling(frequency: float = 2.0, damping_ratio: float = 0.7) -> float:
-    """Return the 2 % settling time of a step at the lower end of the frequencies studied, s."""
+def pole_frequency(real: float, imaginary: float) -> float:
+    """Return the natural frequency of a pair of poles, in their unit."""
+    return hypot(real, imaginary)
+
+
+def pole_damping(real: float, imaginary: float) -> float:
+    """Return the damping ratio of a pair of poles."""
+    return ratio(-real, hypot(real, imaginary))
+
+
+def step_settling(frequency: float, damping_ratio: float, band: float = 0.02) -> float:
+    """Return the settling time of a step of the finger alone, s, within a share of the step."""
     time = np.linspace(0, 10, 20001)
-    return float(settling_time(time, step_response(time, frequency, damping_ratio), final=1.0))
+    response = step_response(time, frequency, damping_ratio)
+    return float(settling_time(time, response, final=1.0, band=band))
 
 
-def second_mode_ratio() -> float:
-    """Return the second natural frequency of a uniform cantilever over its first."""
-    first, second = (
-        brentq(lambda x: np.cos(x) + 1 / np.cosh(x), low, high) for low, high in ((1, 3), (4, 6))
-    )
+def second_mode_ratio(tip_mass: float) -> float:
+    """Return the second natural frequency of a uniform cantilever over its first.
+
+    Args:
+        tip_mass: At its tip, as a part of the beam's own.
+    """
+
+    def condition(x: float) -> float:
+        tip = tip_mass * x * (np.cos(x) * tanh(x) - np.sin(x))
+        return float(np.cos(x) + 1 / np.cosh(x) + tip)
+
+    first, second = brentq(condition, 0.1, 1.9), brentq(condition, 3.9, 4.7)
     return float((second / first) ** 2)
-
-
-def overall(name: str) -> float:
-    """Return height or width of the optimum of Table 3.1, mm."""
-    return float(getattr(section("Opt. parameters"), name)) / MM
 
 
 def prototypes() -> float:
     """Count the distinct fingers of Tables 3.2 and 3.3: sections, and the softer material."""
-    first: list[tuple[Section, float]] = [(row.section, 0.34) for row in table_3_2()]
-    more = [(row.section, row.young_modulus / MPa) for row in table_3_3().values()]
-    return float(len({*first, *more}))
+    made = [(row.section, row.young_modulus) for row in table_3_3().values()]
+    return float(len({*made, *((row.section, made[0][1]) for row in table_3_2())}))
 
 
 def variances() -> float:
     """Count the sections of Table 3.1 beside the optimum."""
     return float(len(table_3_1()) - 1)
-
-
-def frequency_at(top: float, bottom: float, power: float, mass: float = FREQUENCY_MASS) -> float:
-    """Return omega_n of Eq. (3.16), rad/s, for a and b in mm, the rest as in the optimum."""
-    best = section("Opt. parameters")
-    changed = Section(top * MM, bottom * MM, best.width, best.wall)
-    return float(natural_frequency(Finger(changed, fractional_power=power), mass))
 
 
 @simulated
@@ -197,9 +276,12 @@ def identified_damping() -> float:
     return identified_model().finger.damping_ratio
 
 
-def lqr_settling(band: float = 0.02, p: float = 100.0, q2: float = 0.3) -> float:
+def lqr_settling(
+    p: float, q2: float, frequency: float, damping_ratio: float, band: float = 0.02
+) -> float:
     """Return the settling time of the linear loop of Eq. (3.28)-(3.30), s."""
-    return linear_settling_time(FINGER, Weights(p, (1.0, q2, 0.0)), band)
+    finger = SecondOrder(frequency, damping_ratio)
+    return linear_settling_time(finger, Weights(p, (1.0, q2, 0.0)), band)
 
 
 def lqr_error() -> float:

@@ -2,18 +2,22 @@
 
 import pandas as pd
 
-from book.chapter_3.numbers import estimated_frequency, rubber_weight
+from book.chapter_3.numbers import G, rubber_weight
 from book.chapter_3.stepped import identified_row
 from book.companion.exhibit import table
 from book.companion.verdict import outcome_of
 from softgrip.actuator import fem_results
+from softgrip.actuator.bending import Finger
 from softgrip.actuator.certificate import certified_design
 from softgrip.actuator.design import Bounds, DesignProblem, objective
+from softgrip.actuator.frequency import natural_frequency
 from softgrip.actuator.optimize import manufacturable
 from softgrip.actuator.printed import (
     ANGLE_POWER,
     FREQUENCY_POWER,
     SUM_POWER,
+    WEIGHT_POWER,
+    FrequencyRow,
     table_3_1,
     table_3_2,
     table_3_3,
@@ -75,6 +79,11 @@ def table_3_2_recomputed() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def _estimated(row: FrequencyRow, power: float, mass: float, length: float = 94 * MM) -> str:
+    finger = Finger(row.section, length, row.young_modulus, power)
+    return f"{natural_frequency(finger, mass):.2f}"
+
+
 @table("3.3", Provenance.PRINTED)
 def table_3_3_recomputed() -> pd.DataFrame:
     """Tabulate the frequencies of Table 3.3."""
@@ -83,8 +92,9 @@ def table_3_3_recomputed() -> pd.DataFrame:
             "design": name,
             "measured": f"{row.measured:.2f} ± {row.deviation:.3f}",
             "printed": f"{row.estimated:.2f}",
-            "as stated": f"{estimated_frequency(name):.2f}",
-            "reread": f"{estimated_frequency(name, FREQUENCY_POWER, as_printed=False):.2f}",
+            "as stated": _estimated(row, 1.0, row.weight / G, row.length),
+            "kilograms": _estimated(row, FREQUENCY_POWER, row.weight),
+            "newtons": _estimated(row, WEIGHT_POWER, row.weight / G),
             "outcome": outcome_of(3, "table-3.3-estimated-{key}", name),
             "weight": f"{row.weight:.2f}",
             "rubber": f"{rubber_weight(name):.2f}",

@@ -118,12 +118,20 @@ class Claim:
     note: str = ""
 
 
+class Key(str):
+    """A cell's key among the arguments: a name, even where it looks like a printed number."""
+
+    __slots__ = ()
+
+
 def _slug(pattern: str, key: object) -> str:
     slug = "".join(c if c.isalnum() else "-" for c in str(key).lower())
     return pattern.replace("{key}", slug)
 
 
 def _fill(value: Any, key: str) -> Any:
+    if value == "{key}":
+        return Key(key)
     if isinstance(value, str):
         return _slug(value, key) if value.startswith("@") else value.replace("{key}", key)
     if isinstance(value, dict):
@@ -276,7 +284,8 @@ def resolved(argument: Any) -> Any:
     if isinstance(argument, str):
         if argument.startswith("@"):
             return printed(argument[1:])
-        return Printed(argument) if NUMBER.fullmatch(argument) else argument
+        number = NUMBER.fullmatch(argument) and not isinstance(argument, Key)
+        return Printed(argument) if number else str(argument)
     if isinstance(argument, dict):
         return {name: resolved(item) for name, item in argument.items()}
     if isinstance(argument, list | tuple):

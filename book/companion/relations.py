@@ -35,6 +35,11 @@ def multiplied(factors: Sequence[float], scale: float = 1.0) -> float:
     return prod(factors) * scale
 
 
+def scaled(value: float, part: float, whole: float) -> float:
+    """Return a number in proportion: ``value * part / whole``."""
+    return value * part / whole
+
+
 def mean(values: Sequence[float]) -> float:
     """Return the arithmetic mean."""
     return sum(values) / len(values)
@@ -48,6 +53,20 @@ def largest(values: Sequence[float]) -> float:
 def least(values: Sequence[float]) -> float:
     """Return the least of printed numbers."""
     return min(values)
+
+
+def upper_limit(stated: float, reached: Sequence[float]) -> float:
+    """Return the limit that values need: the stated one, or the largest that lies above it.
+
+    >>> upper_limit(5.0, [20.0, 14.4]), upper_limit(24.0, [20.0, 14.4])
+    (20.0, 24.0)
+    """
+    return max(stated, *reached)
+
+
+def lower_limit(stated: float, reached: Sequence[float]) -> float:
+    """Return the limit that values need: the stated one, or the least that lies below it."""
+    return min(stated, *reached)
 
 
 def number_of(values: Sequence[object]) -> float:

@@ -12,7 +12,10 @@ from softgrip.reads import remembered
 from softgrip.units import MM, MPa
 
 FREQUENCY_POWER = 1.045
-"""n with which Eq. (3.16) gives the 2.62 rad/s of Table 3.3 for two designs; none is printed."""
+"""n with which Eq. (3.16) gives the 2.62 rad/s of Table 3.3, M in kilograms; none is printed."""
+
+WEIGHT_POWER = 2.07
+"""n with which it does with M as the weight in newtons that the table prints."""
 
 ANGLE_POWER = 1.56
 """n with which Eq. (3.10) gives the 290 deg of Section 3.4."""
@@ -21,7 +24,7 @@ SUM_POWER = 2.08
 """n with which Eq. (3.20) gives the sums 2.36 and 2.30 of Section 3.4."""
 
 FREQUENCY_MASS = 0.35
-"""M with which it does, kg: the number that Table 3.3 gives in newtons."""
+"""M for `FREQUENCY_POWER`, kg: the number that Table 3.3 gives in newtons."""
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,8 @@
 import pytest
 
 from book.companion import claims as module
-from book.companion.claims import claim_of, read_claims
+from book.companion.claims import claim_of, read_claims, resolved
+from book.companion.printed import Printed
 from softgrip.errors import DataFileError, InvalidInputError, UnknownNameError
 
 HEAD = "# provenance: printed\n# source: test\n"
@@ -35,6 +36,18 @@ def test_a_table_of_cells_becomes_one_claim_a_cell(write):
     assert first.arguments == {"material": "Mold Star 20T"}
     assert first.chapter == 5  # the file's own
     assert second.id == "n-ecoflex-00-10"
+
+
+def test_a_key_is_a_name_even_if_it_is_a_number(write):
+    write(
+        f'[[claim]]\n{BASE}id = "row-{{key}}"\nwhat = "{{key}}"\n'
+        'arguments = {row = "{key}", rounded = "1.5", other = "@row-{key}"}\n'
+        '[claim.printed]\n"1" = "2.174"\n'
+    )
+    (claim,) = read_claims(5)
+    found = resolved(claim.arguments)
+    assert found == {"row": "1", "rounded": 1.5, "other": 2.174}
+    assert [type(value) for value in found.values()] == [str, Printed, Printed]
 
 
 @pytest.mark.parametrize(
