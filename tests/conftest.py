@@ -1,4 +1,4 @@
-"""What all tests share: where the public tensile tests lie, the project's root, no deadlines."""
+"""What all tests share: where the public data lie, the project's root, no deadlines."""
 
 import os
 from pathlib import Path
@@ -10,10 +10,11 @@ pytest_plugins = ["tests.board.served"]
 collect_ignore = ["bench/elastica_rod.py"]  # runs in an environment of its own
 
 ROOT = Path(__file__).parent.parent
-BESIDE = ROOT.parent / "shared" / "materials"
+BESIDE = ROOT.parent / "shared"
 
-if "SOFTGRIP_MATERIALS_DIR" not in os.environ and BESIDE.is_dir():
-    os.environ["SOFTGRIP_MATERIALS_DIR"] = str(BESIDE)
+for variable, name in (("SOFTGRIP_MATERIALS_DIR", "materials"), ("SOFTGRIP_AUTHOR_DIR", "author")):
+    if variable not in os.environ and (BESIDE / name).is_dir():
+        os.environ[variable] = str(BESIDE / name)
 
 # An example is not judged by the clock: its first call may import or compile, and others may keep
 # the machine busy.
@@ -46,3 +47,12 @@ def tensile_tests() -> None:
 
     if not tensile.available():
         pytest.skip("needs the public tensile tests: a network, or SOFTGRIP_MATERIALS_DIR")
+
+
+@pytest.fixture(scope="session")
+def one_layer_readings() -> None:
+    """Skip where the author's force readings can neither be read nor fetched."""
+    from softgrip.tactile import one_layer
+
+    if not one_layer.available():
+        pytest.skip("needs the author's force readings: a network, or SOFTGRIP_AUTHOR_DIR")

@@ -20,7 +20,8 @@ from softgrip.reads import listen
 TRACE_VARIABLE = "SOFTGRIP_PAGE_TRACE"
 ROOT = Path(softgrip.__file__).resolve().parent.parent
 WATCHED = (
-    *(ROOT / "softgrip", ROOT / "data", ROOT / "book" / "companion", ROOT / "book" / "live"),
+    *(ROOT / "softgrip", ROOT / "data"),
+    *(ROOT / "book" / room for room in ("companion", "live", "author")),
     *sorted((ROOT / "book").glob("chapter_*")),
 )
 
@@ -44,11 +45,13 @@ def install_hook(ipython_folder: Path) -> None:
 def surroundings() -> dict[str, str]:
     """Return what every page depends on beside its files: Python, libraries, the public data."""
     from softgrip.materials import tensile
+    from softgrip.tactile import one_layer
 
+    public = {"tensile tests": tensile, "force readings": one_layer}
     return {
         "python": sys.version,
         "environment.lock": digest(ROOT / "environment.lock"),
-        "tensile tests": "available" if tensile.available() else "not available",
+        **{name: str(files.available()) for name, files in public.items()},
     }
 
 

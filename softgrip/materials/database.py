@@ -4,16 +4,10 @@ The Soft Robotics Materials Database is under the Open Database License 1.0; its
 part of this package.
 """
 
-import hashlib
-import os
-from functools import cache
 from pathlib import Path
-from typing import Any
-from urllib.parse import quote
 
-import pooch
-
-from softgrip.errors import DataFileError, DataUnavailableError, UnknownNameError
+from softgrip.errors import UnknownNameError
+from softgrip.published import PublishedFiles
 
 FOLDER_VARIABLE = "SOFTGRIP_MATERIALS_DIR"
 """Environment variable that names a folder of the files; unset or empty for the network."""
@@ -34,13 +28,6 @@ SHA256 = {
     "SORTA-Clear 40": "b595d579e6f75632bb118d7517202b567d7269a16de9006babfa9751bd00c848",
 }
 """Digest of each material's file, by the names of Table 5.1."""
-TIMEOUT = 5.0
-"""Seconds to wait for the network: pages are built without it too."""
-
-_HOW_TO_GET_IT = (
-    f"Either let this computer reach {URL} once (the files are then kept in its cache), or put "
-    f"the unchanged files in a folder and name it in the environment variable {FOLDER_VARIABLE}."
-)
 
 
 def file_name(name: str) -> str:
@@ -57,74 +44,24 @@ def file_name(name: str) -> str:
     return f"{name.replace('SORTA-Clear', 'SortaClear')}.csv"
 
 
+FILES = PublishedFiles(
+    FOLDER_VARIABLE, URL, {file_name(name): digest for name, digest in SHA256.items()}
+)
+
+
 def locate(name: str) -> Path:
     """Return the path of a material's file, fetched if need be, with its digest checked.
 
     Raises:
         UnknownNameError: If the name is not one of Table 5.1.
-        DataUnavailableError: If the named folder or its file is missing, or the network did not
-            give the file.
-        DataFileError: If the folder's file is not, byte by byte, the published one.
+        DataUnavailableError, DataFileError: As `PublishedFiles.locate` does.
     """
-    file = file_name(name)
-    folder = os.environ.get(FOLDER_VARIABLE)
-    return _from_folder(Path(folder), file, SHA256[name]) if folder else _from_network(file)
+    return FILES.locate(file_name(name))
 
 
 def available() -> bool:
-    """Tell whether all files can be read; without network it is tried once a process.
-
-    Raises:
-        DataUnavailableError, DataFileError: If a folder is named and is not in order: a wrong
-            setting should not pass for no data.
-    """
-    if os.environ.get(FOLDER_VARIABLE):
-        return all(locate(name) for name in SHA256)
-    return _network_gives_all()
-
-
-def _from_folder(folder: Path, file: str, sha256: str) -> Path:
-    path = folder / file
-    if not path.is_file():
-        missing = f"has no file {file!r}" if folder.is_dir() else "is not a folder"
-        raise DataUnavailableError(f"{FOLDER_VARIABLE} names {folder}, which {missing}.")
-    digest = hashlib.sha256(path.read_bytes()).hexdigest()
-    if digest != sha256:
-        raise DataFileError(
-            path,
-            expected=f"the published bytes, SHA-256 {sha256[:12]} (line ends count)",
-            got=f"a changed file, SHA-256 {digest[:12]}",
-        )
-    return path
-
-
-def _from_network(file: str) -> Path:
-    download = pooch.HTTPDownloader(timeout=TIMEOUT)
-    try:
-        return Path(_store().fetch(file, downloader=download))
-    except (OSError, ValueError) as error:
-        # OSError: no network or no cache folder; ValueError: other bytes than published.
-        raise DataUnavailableError(f"{file}: not fetched ({error}). {_HOW_TO_GET_IT}") from error
-
-
-@cache
-def _network_gives_all() -> bool:
-    try:
-        return all(_from_network(file_name(name)) for name in SHA256)
-    except DataUnavailableError:
-        return False
-
-
-@cache
-def _store() -> Any:
-    pooch.get_logger().setLevel("WARNING")  # a page must not differ by whether it had to fetch
-    files = {file_name(name): sha256 for name, sha256 in SHA256.items()}
-    return pooch.create(
-        path=pooch.os_cache("softgrip"),
-        base_url=URL,
-        registry={file: f"sha256:{sha256}" for file, sha256 in files.items()},
-        urls={file: URL + quote(file) for file in files},
-    )
+    """Tell whether all files can be read; as `PublishedFiles.available`, with its errors."""
+    return FILES.available()
 
 
 def statement() -> str:

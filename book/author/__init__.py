@@ -1,0 +1,1 @@
+"""What the author published elsewhere: his scripts recomputed, his force readings."""

@@ -1,0 +1,100 @@
+"""Readings of an earlier force sensor, of one layer, that the dissertation's author published.
+
+They are of 14 September 2020. Section 2.2 says of a layer of one piece that it repeats poorly; the
+sandwich of the dissertation replaced it. The file has no licence, so it is not part of this package
+and is only read where it was published, or from a reader's own copy.
+"""
+
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+
+import numpy as np
+
+from softgrip.arrays import Floats, read_only
+from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.published import PublishedFiles
+
+FOLDER_VARIABLE = "SOFTGRIP_AUTHOR_DIR"
+"""Environment variable that names a folder of the file; unset or empty for the network."""
+FILE = "Processed_09142020.csv"
+FILES = PublishedFiles(
+    FOLDER_VARIABLE,
+    "https://raw.githubusercontent.com/WuteYANG/Modeling-soft-sensor-by-NN/"
+    "46c7f6b439b30c52af65b6d712272481b8d7a06a/",
+    {FILE: "1db9bebd536921b8afc9a315305390ef5caa1ebfc22cd53450a42deb502616a5"},
+    {FILE: "force-sensor-2020-09-14.csv"},
+)
+
+
+@dataclass(frozen=True, eq=False)
+class ForceReadings:
+    """Readings of a force sensor; its arrays cannot be written to.
+
+    Attributes:
+        signal: Of the sensor, no unit is given, shape (N,).
+        force: That the sensor bore, N, shape (N,): a few levels, those of weights.
+    """
+
+    signal: Floats
+    force: Floats
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "signal", read_only(self.signal))
+        object.__setattr__(self, "force", read_only(self.force))
+        if self.signal.ndim != 1 or self.signal.shape != self.force.shape:
+            raise InvalidInputError(
+                "signal, force",
+                expected="arrays of one shape (N,)",
+                got=(self.signal.shape, self.force.shape),
+            )
+
+    @property
+    def levels(self) -> Floats:
+        """The forces that occur, N, shape (levels,), rising."""
+        return np.unique(self.force)
+
+
+def load() -> ForceReadings:
+    """Read the readings.
+
+    Raises:
+        DataUnavailableError, DataFileError: As `PublishedFiles.locate` and `parse` do.
+    """
+    return parse(FILES.locate(FILE))
+
+
+def available() -> bool:
+    """Tell whether the readings can be had; as `PublishedFiles.available`, with its errors."""
+    return FILES.available()
+
+
+def parse(path: Path) -> ForceReadings:
+    """Read a file of three rows: signals, forces in N, how many readings each level has.
+
+    Raises:
+        DataFileError: If the third row does not count the runs of equal force in the second: rows
+            were mixed up or cut.
+    """
+    signal, force, counts = (
+        [float(cell) for cell in line.split(",") if cell.strip()]
+        for line in path.read_text(encoding="utf-8").splitlines()
+    )
+    runs = [len([*run]) for _, run in groupby(force)]
+    if runs != counts or len(signal) != len(force):
+        raise DataFileError(
+            path,
+            expected=f"{sum(runs)} signals, and counts {runs} as of the forces",
+            got=f"{len(signal)}, {counts}",
+        )
+    return ForceReadings(np.array(signal), np.array(force))
+
+
+def statement() -> str:
+    """Say in a sentence whether the readings are read, and if not, what stands in for them."""
+    if available():
+        return f"The {load().force.size} readings were read and checked against their digest."
+    return (
+        f"The readings could not be had (no network, and no folder is named in {FOLDER_VARIABLE}): "
+        "they are missing from the figure, and the errors are kept ones."
+    )
