@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import pytest
 
+from book.author import forces
 from book.chapter_3 import regulators
 from book.chapter_4 import pid_gains
 from book.chapter_5 import step_protocols, step_sweep
@@ -25,6 +26,7 @@ MADE_BY = {module.KEPT: module for module in MODULES}
 MADE_BY |= {
     made: module for module in (fem_results, element_results) for made in module.KEPT.values()
 }
+MADE_BY |= dict.fromkeys((forces.ERRORS, forces.REPEATABILITY), forces)
 
 
 @dataclass(frozen=True)
@@ -92,8 +94,8 @@ def test_other_columns_are_refused(tmp_path):
 @pytest.mark.parametrize("table", MADE_BY, ids=lambda table: table.file)
 def test_kept_file_says_by_which_command_it_is_made(table):
     file, module = data_file(table.file), MADE_BY[table]
-    public = module in (facts, fitting)
-    command = f"python -m {'softgrip.materials' if public else module.__name__}"
+    materials, public = module in (facts, fitting), module in (facts, fitting, forces)
+    command = f"python -m {'softgrip.materials' if materials else module.__name__}"
     assert file.provenance is (Provenance.PUBLIC if public else Provenance.SIMULATED)
     assert file.source == table.source
     assert file.source.endswith(f": {command}") if public else file.source == command

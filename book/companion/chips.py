@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import inf
 
 from book.companion.claims import Basis, references
+from book.companion.markdown import Markdown
 from book.companion.verdict import Entry, Outcome, any_meets, ledger, yields
 
 MARKS = {
@@ -165,16 +166,6 @@ def show_verdicts(chapter: int | None = None, *, where: tuple[str, ...] = ()) ->
     count = Counter(entry.outcome for entry in entries)
     chips = " ".join(chip(found, f"{count[found]} {found}") for found in Outcome if count[found])
     return Html(f'<p class="counts">{chips}</p>{verdict_table(entries)}')
-
-
-@dataclass(frozen=True)
-class Markdown:
-    """A piece of Markdown that a notebook displays."""
-
-    text: str
-
-    def _repr_markdown_(self) -> str:
-        return self.text
 
 
 def show_counts() -> Markdown:

@@ -23,17 +23,19 @@ def decimals(text: str) -> int:
 
 
 class Printed(float):
-    """A printed number: a float that knows half a unit of its last place.
+    """A printed number: a float that knows its text and half a unit of its last place.
 
     >>> Printed("6.15") / 90, Printed("6.15").half
     (0.06833333333333334, 0.005)
     """
 
+    text: str
     half: float
 
     def __new__(cls, text: str, *, exact: bool = False) -> Self:
         """Read it; ``exact`` for a count or a setting, which nobody has rounded."""
         number = super().__new__(cls, text)
+        number.text = text
         number.half = 0.0 if exact else 0.5 * 10.0 ** -decimals(text)
         return number
 

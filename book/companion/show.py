@@ -19,6 +19,7 @@ import pandas as pd
 
 from book.companion.chips import chip
 from book.companion.exhibit import Exhibit, exhibit, with_logs
+from book.companion.markdown import markdown_table
 from book.companion.save import Made, make, save, svg
 from book.companion.verdict import Outcome, ledger
 
@@ -113,25 +114,14 @@ class Shown:
         )
         provenance = f"\n\n::::{{container}} provenance\n{strip}\n::::\n"
         if item.kind == "table":
-            body = (
-                f":::::{{table}} {item.caption}\n:name: {item.label}\n\n{self._markdown()}\n:::::"
-            )
+            rows = markdown_table(self.made.shown, _cell)
+            body = f":::::{{table}} {item.caption}\n:name: {item.label}\n\n{rows}\n:::::"
         else:
             body = (
                 f":::::{{figure}} /{FOLDER}/{item.name}.svg\n:name: {item.label}\n"
                 f":alt: {item.alt}\n:class: exhibit\n\n{item.caption}\n:::::"
             )
         return body + provenance
-
-    def _markdown(self) -> str:
-        frame: pd.DataFrame = self.made.shown
-        numeric = [pd.api.types.is_numeric_dtype(kind) for kind in frame.dtypes]
-        lines = [
-            "| " + " | ".join(map(str, frame.columns)) + " |",
-            "|" + "|".join("---:" if right else ":---" for right in numeric) + "|",
-            *("| " + " | ".join(map(_cell, row)) + " |" for row in frame.itertuples(index=False)),
-        ]
-        return "\n".join(lines)
 
     def _html(self) -> str:
         item = self.exhibit

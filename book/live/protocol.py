@@ -5,7 +5,7 @@ from struct import calcsize
 
 import pandas as pd
 
-from book.companion.chips import Markdown
+from book.companion.markdown import Markdown, as_markdown
 from softgrip.board import protocol
 from softgrip.board.firmware.header import README, TYPES
 from softgrip.board.framing import LARGEST
@@ -19,14 +19,6 @@ BITS = 10
 """Of a byte on the line, 8N1: a start bit and a stop bit beside the eight."""
 HOST_IDS = 128
 """The host's messages have ids below."""
-
-
-def as_markdown(frame: pd.DataFrame) -> Markdown:
-    """Return a table as Markdown, which a page and a notebook both set; cells may hold Markdown."""
-    rows = [map(str, frame.columns), ["---"] * frame.shape[1]]
-    rows += [(str(cell) for cell in row) for row in frame.itertuples(index=False)]
-    text = "\n".join("| " + " | ".join(row) + " |" for row in rows)
-    return Markdown(text)
 
 
 def readme_section(title: str) -> Markdown:

@@ -87,3 +87,30 @@ def root_mean_square(errors: ArrayLike) -> float:
     3.5355339059327378
     """
     return float(np.sqrt(np.mean(np.square(errors))))
+
+
+def resampled_root_mean_squares(
+    errors: ArrayLike, levels: ArrayLike, *, resamples: int = 10_000, seed: int = 0
+) -> Floats:
+    """Return the root mean square of errors of levels drawn anew with replacement, bootstrap.
+
+    Whole levels are drawn, for the readings of one are alike: those at the next force would not be.
+    The same levels, resamples and seed give the same draws, so that the results of two models can
+    be subtracted from each other.
+
+    Args:
+        errors, levels: Errors and the level of each, shapes (points,).
+        resamples: Number of draws, > 0.
+        seed: Of the draws.
+
+    Returns:
+        ndarray: Shape (resamples,), unit of the errors.
+
+    >>> resampled_root_mean_squares([3.0, 3.0, 3.0], [0, 0, 1], resamples=2).tolist()
+    [3.0, 3.0]
+    """
+    _, place = np.unique(levels, return_inverse=True)
+    squares = np.bincount(place, weights=np.square(errors))
+    counts = np.bincount(place)
+    drawn = np.random.default_rng(seed).integers(len(counts), size=(resamples, len(counts)))
+    return np.asarray(np.sqrt(squares[drawn].sum(axis=1) / counts[drawn].sum(axis=1)))

@@ -5,7 +5,12 @@ import pytest
 from sklearn.linear_model import LinearRegression
 from sklearn.neighbors import KNeighborsRegressor
 
-from softgrip.tactile.force_comparison import cross_validated, regressors, root_mean_square
+from softgrip.tactile.force_comparison import (
+    cross_validated,
+    regressors,
+    resampled_root_mean_squares,
+    root_mean_square,
+)
 
 FORCE = np.repeat(np.linspace(0, 0.7, 12), 3)
 VOLTAGE = 4 * (1 - np.exp(-FORCE / 0.2)) + np.tile([-0.01, 0.0, 0.01], 12)
@@ -46,3 +51,18 @@ def test_seed_makes_the_same_network():
         cross_validated(regressors(1)["neural network"], VOLTAGE, FORCE, seed=1) for _ in range(2)
     )
     np.testing.assert_array_equal(first, second)
+
+
+def test_resampled_errors_are_those_of_levels_drawn_by_hand():
+    errors, levels = np.array([1.0, 2.0, 3.0, 4.0, 5.0]), np.array([0.1, 0.1, 0.0, 0.2, 0.2])
+    found = resampled_root_mean_squares(errors, levels, resamples=50, seed=3)
+    by_level = [errors[levels == level] for level in (0.0, 0.1, 0.2)]
+    draws = np.random.default_rng(3).integers(3, size=(50, 3))
+    by_hand = [root_mean_square(np.concatenate([by_level[k] for k in draw])) for draw in draws]
+    np.testing.assert_allclose(found, by_hand, rtol=1e-12)
+    assert found.std() > 0
+
+
+def test_one_level_leaves_nothing_to_draw():
+    found = resampled_root_mean_squares([3.0, 4.0], [1, 1], resamples=5)
+    np.testing.assert_allclose(found, root_mean_square([3.0, 4.0]), rtol=1e-12)
