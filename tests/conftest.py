@@ -50,9 +50,9 @@ def tensile_tests() -> None:
 
 
 @pytest.fixture(scope="session")
-def one_layer_readings() -> None:
+def published_readings() -> None:
     """Skip where the author's force readings can neither be read nor fetched."""
-    from softgrip.tactile import one_layer
+    from softgrip.tactile import published_readings
 
-    if not one_layer.available():
+    if not published_readings.available():
         pytest.skip("needs the author's force readings: a network, or SOFTGRIP_AUTHOR_DIR")

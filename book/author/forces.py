@@ -23,7 +23,7 @@ from book.companion.style import BLUE, GREEN, MEASURED, ORANGE, SKY, VERMILION, 
 from softgrip.arrays import Floats
 from softgrip.kept import Kept
 from softgrip.provenance import Provenance
-from softgrip.tactile import one_layer
+from softgrip.tactile import published_readings
 from softgrip.tactile.force_comparison import (
     cross_validated,
     regressors,
@@ -34,7 +34,7 @@ from softgrip.tactile.nadaraya_watson import NadarayaWatson, best_bandwidth
 
 LINE, PARABOLA = "ordinary least squares", "parabola"
 READING, LEVEL = "a reading", "a level"
-ONE_LAYER, SIMULATED = "one layer, 2020", "simulated"
+PUBLISHED, SIMULATED = "author, 2020", "simulated"
 CURVES = {
     LINE: (ORANGE, "-"),
     PARABOLA: (VERMILION, (0, (1, 1))),
@@ -58,11 +58,11 @@ def points(sensor: str) -> Points:
     """Return signal and force, N, of a sensor's readings, shapes (N,).
 
     Raises:
-        DataUnavailableError, DataFileError: As `one_layer.load`, for the author's.
+        DataUnavailableError, DataFileError: As `published_readings.load`, for the author's.
     """
     if sensor == SIMULATED:
         return weight_points()
-    found = one_layer.load()
+    found = published_readings.load()
     return found.signal, found.force
 
 
@@ -188,7 +188,7 @@ def repeatability(signal: Floats, force: Floats, limit: float = LIMIT) -> Repeat
 
 
 def _all_errors() -> Iterator[RegressorError]:
-    for sensor in (ONE_LAYER, SIMULATED):
+    for sensor in (PUBLISHED, SIMULATED):
         for left_out in (READING, LEVEL):
             yield from regressor_errors(sensor, left_out)
 
@@ -209,7 +209,7 @@ ERRORS = Kept(
 REPEATABILITY = Kept(
     "author/force_repeatability.csv",
     Repeatability,
-    lambda: [repeatability(*points(ONE_LAYER))],
+    lambda: [repeatability(*points(PUBLISHED))],
     _SOURCE,
     notes="Deviations in N. No reading is contained.",
     number=".5f",
@@ -233,7 +233,7 @@ def error_if_curved_as_simulated() -> float:
 
 
 def _with_interval(value: float, low: float, high: float, sign: str = "") -> str:
-    return f"{value:{sign}.4f} ({low:{sign}.4f} to {high:{sign}.4f})"
+    return f"{value:{sign}.3f} ({low:{sign}.3f} to {high:{sign}.3f})"
 
 
 def error_table(sensor: str) -> pd.DataFrame:
@@ -243,8 +243,8 @@ def error_table(sensor: str) -> pd.DataFrame:
         {
             "regressor": name,
             "a reading left out": f"{by_reading[name].error:.4f}",
-            "a level left out": _with_interval(row.error, row.low, row.high),
-            "less that of the line": _with_interval(
+            "a weight left out": _with_interval(row.error, row.low, row.high),
+            "difference to the line": _with_interval(
                 row.beyond, row.beyond_low, row.beyond_high, "+"
             )
             if name != LINE
@@ -256,7 +256,7 @@ def error_table(sensor: str) -> pd.DataFrame:
 
 def draw_fits() -> Figure:
     """Draw the regressors on the readings that can be had: the author's and the simulated ones."""
-    sensors = [ONE_LAYER, SIMULATED] if one_layer.available() else [SIMULATED]
+    sensors = [PUBLISHED, SIMULATED] if published_readings.available() else [SIMULATED]
     drawn, panels = sheet(2.9 * len(sensors) + 0.6, len(sensors), 1, squeeze=False)
     for axes, sensor in zip(panels[:, 0], sensors, strict=True):
         signal, force = points(sensor)

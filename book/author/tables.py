@@ -193,7 +193,7 @@ def _models() -> list[tuple[str, ...]]:
          f"{checked_frequency(fractional_power=first):.2f} rad/s",
          f"last: {check['fractional_power']:g}", frequency, "table-3.3-estimated-design-1-e1-"),
         ("elongation by", "Eq. (3.10), design script: A_c / A_w", angle,
-         "check script: less 1", f"{checked_angle(wall_subtracted=True):.1f} deg",
+         "check script: 1 less", f"{checked_angle(wall_subtracted=True):.1f} deg",
          "3.4-model-angle"),
     ]  # fmt: skip
 

@@ -45,9 +45,9 @@ def install_hook(ipython_folder: Path) -> None:
 def surroundings() -> dict[str, str]:
     """Return what every page depends on beside its files: Python, libraries, the public data."""
     from softgrip.materials import tensile
-    from softgrip.tactile import one_layer
+    from softgrip.tactile import published_readings
 
-    public = {"tensile tests": tensile, "force readings": one_layer}
+    public = {"tensile tests": tensile, "force readings": published_readings}
     return {
         "python": sys.version,
         "environment.lock": digest(ROOT / "environment.lock"),

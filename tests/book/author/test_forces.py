@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from book.author import forces
-from book.author.forces import LEVEL, LINE, ONE_LAYER, PARABOLA, READING, SIMULATED
+from book.author.forces import LEVEL, LINE, PARABOLA, PUBLISHED, READING, SIMULATED
 from softgrip.provenance import data_folder
-from softgrip.tactile import one_layer
+from softgrip.tactile import published_readings
 from softgrip.tactile.force_comparison import root_mean_square
 
 
@@ -20,9 +20,9 @@ def left_out_by_hat(signal, force, degree):
     return (force - hat @ force) / (1 - np.diag(hat))
 
 
-@pytest.mark.usefixtures("one_layer_readings")
+@pytest.mark.usefixtures("published_readings")
 def test_errors_by_hand_of_a_reading_left_out():
-    signal, force = forces.points(ONE_LAYER)
+    signal, force = forces.points(PUBLISHED)
     away = abs(signal[:, None] - signal)
     np.fill_diagonal(away, np.inf)
     weights = np.exp(-0.5 * (away / 0.5) ** 2)
@@ -32,28 +32,28 @@ def test_errors_by_hand_of_a_reading_left_out():
         root_mean_square(force - weights @ force / weights.sum(axis=1)),
     ]
     assert by_hand == pytest.approx([0.0953, 0.0958, 0.0985], abs=5e-5)
-    kept = forces.kept_errors(ONE_LAYER, READING)
+    kept = forces.kept_errors(PUBLISHED, READING)
     # Widths are tried in steps of 12 %: the best of them is as good as 0.5, and no better.
     names = LINE, PARABOLA, "Nadaraya-Watson, best width"
     assert [kept[name].error for name in names] == pytest.approx(by_hand, abs=2e-5)
     assert kept["k-nearest neighbours, best k"].error == pytest.approx(0.100, abs=5e-4)
 
 
-@pytest.mark.usefixtures("one_layer_readings")
+@pytest.mark.usefixtures("published_readings")
 @pytest.mark.parametrize("left_out", [READING, LEVEL])
 def test_kept_errors_are_what_the_readings_give(left_out):
     # The network and the neighbours, which take longest, are left to the command.
-    kept = forces.kept_errors(ONE_LAYER, left_out)
+    kept = forces.kept_errors(PUBLISHED, left_out)
     chosen = [LINE, PARABOLA, "Nadaraya-Watson", "Nadaraya-Watson, best width"]
-    for found in forces.regressor_errors(ONE_LAYER, left_out, chosen):
+    for found in forces.regressor_errors(PUBLISHED, left_out, chosen):
         numbers = astuple(found)[3:]
         # Five decimals are kept.
         assert numbers == pytest.approx(astuple(kept[found.regressor])[3:], abs=6e-6)
 
 
-@pytest.mark.usefixtures("one_layer_readings")
+@pytest.mark.usefixtures("published_readings")
 def test_kept_repeatability_is_what_the_readings_give():
-    signal, force = forces.points(ONE_LAYER)
+    signal, force = forces.points(PUBLISHED)
     found = forces.repeatability(signal, force)
     kept = forces.REPEATABILITY.read()[0]
     assert astuple(found) == pytest.approx(astuple(kept), abs=6e-6)
@@ -72,7 +72,7 @@ def test_readings_on_a_line_repeat_and_levels_of_one_do_not_count():
 
 
 def test_what_the_page_says_of_the_errors():
-    by_reading, by_level = (forces.kept_errors(ONE_LAYER, how) for how in (READING, LEVEL))
+    by_reading, by_level = (forces.kept_errors(PUBLISHED, how) for how in (READING, LEVEL))
     others = {name for name in by_level if name != LINE}
     assert len(others) == 6
     for rows in (by_reading, by_level):
@@ -88,15 +88,15 @@ def test_what_the_page_says_of_the_errors():
 
 
 def test_figure_without_the_readings_has_the_simulated_ones(monkeypatch):
-    monkeypatch.setattr(one_layer, "available", lambda: False)
+    monkeypatch.setattr(published_readings, "available", lambda: False)
     drawn = forces.draw_fits()
     assert [axes.get_title() for axes in drawn.axes] == [SIMULATED]
 
 
-@pytest.mark.usefixtures("one_layer_readings")
+@pytest.mark.usefixtures("published_readings")
 def test_figure_has_both_sensors_and_all_regressors():
     drawn = forces.draw_fits()
-    assert [axes.get_title() for axes in drawn.axes] == [ONE_LAYER, SIMULATED]
+    assert [axes.get_title() for axes in drawn.axes] == [PUBLISHED, SIMULATED]
     for axes in drawn.axes:
         labels = [line.get_label() for line in axes.lines]
         assert labels == ["readings", *forces.CURVES]
@@ -106,4 +106,4 @@ def test_the_readings_are_no_part_of_the_project():
     files = [path for path in data_folder().rglob("*") if path.is_file()]
     digests = {hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
     assert len(digests) > 50
-    assert not digests & {*one_layer.FILES.sha256.values()}
+    assert not digests & {*published_readings.FILES.sha256.values()}

@@ -6,7 +6,7 @@ from IPython.core.interactiveshell import InteractiveShell
 
 from book.companion.markdown import Markdown
 from softgrip.errors import DataUnavailableError
-from softgrip.tactile import one_layer
+from softgrip.tactile import published_readings
 
 
 def shown(root):
@@ -28,13 +28,13 @@ def refuse():
 
 
 def test_without_the_readings_it_says_so_and_keeps_its_numbers(root, monkeypatch):
-    monkeypatch.setattr(one_layer, "available", lambda: False)
-    monkeypatch.setattr(one_layer, "load", refuse)
+    monkeypatch.setattr(published_readings, "available", lambda: False)
+    monkeypatch.setattr(published_readings, "load", refuse)
     text = shown(root)
     assert "could not be had" in text
     assert "0.0953" in text
 
 
-@pytest.mark.usefixtures("one_layer_readings")
+@pytest.mark.usefixtures("published_readings")
 def test_with_the_readings_it_says_that_they_were_checked(root):
     assert "readings were read and checked" in shown(root)

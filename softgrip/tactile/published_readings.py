@@ -1,8 +1,9 @@
-"""Readings of an earlier force sensor, of one layer, that the dissertation's author published.
+"""Readings of a force sensor that the dissertation's author published, of 14 September 2020.
 
-They are of 14 September 2020. Section 2.2 says of a layer of one piece that it repeats poorly; the
-sandwich of the dissertation replaced it. The file has no licence, so it is not part of this package
-and is only read where it was published, or from a reader's own copy.
+He calls it a self-built soft sensor, and no more. Its date and its scatter fit the single piece of
+fabric of which Section 2.2 says that it repeats poorly, and which the dissertation's sandwich
+replaced. The file has no licence, so it is not part of this package: it is only read where it was
+published, or from a reader's own copy.
 """
 
 from dataclasses import dataclass

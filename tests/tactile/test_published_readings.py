@@ -1,11 +1,11 @@
-"""The readings of the earlier force sensor: that they are read whole, or refused."""
+"""The author's force readings: that they are read whole, or refused."""
 
 import numpy as np
 import pytest
 
 from softgrip.errors import DataFileError, DataUnavailableError, InvalidInputError
-from softgrip.tactile import one_layer
-from softgrip.tactile.one_layer import ForceReadings, parse
+from softgrip.tactile import published_readings
+from softgrip.tactile.published_readings import ForceReadings, parse
 
 ROWS = ("1.5,2,3", "0.981,0.981,0", "2,,1")
 
@@ -40,9 +40,9 @@ def test_arrays_of_two_lengths_are_refused():
         ForceReadings(np.zeros(3), np.zeros(2))
 
 
-@pytest.mark.usefixtures("one_layer_readings")
+@pytest.mark.usefixtures("published_readings")
 def test_the_published_readings_are_weights_of_up_to_a_hundred_gram_force():
-    found = one_layer.load()
+    found = published_readings.load()
     assert found.force.size == 100
     # He took 9.81 m/s^2: the levels are whole multiples of 5 gf with it.
     steps = found.levels / (9.81 * 5e-3)
@@ -52,9 +52,9 @@ def test_the_published_readings_are_weights_of_up_to_a_hundred_gram_force():
 
 
 def test_without_them_the_statement_says_so(monkeypatch, tmp_path):
-    monkeypatch.setattr(one_layer, "available", lambda: False)
-    assert "SOFTGRIP_AUTHOR_DIR" in one_layer.statement()
+    monkeypatch.setattr(published_readings, "available", lambda: False)
+    assert "SOFTGRIP_AUTHOR_DIR" in published_readings.statement()
     monkeypatch.undo()
     monkeypatch.setenv("SOFTGRIP_AUTHOR_DIR", str(tmp_path))
     with pytest.raises(DataUnavailableError, match=r"force-sensor-2020-09-14\.csv"):
-        one_layer.statement()
+        published_readings.statement()
