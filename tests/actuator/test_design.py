@@ -87,6 +87,24 @@ def test_a_bound_holds_in_its_box(problem, seed):
     assert values.max() <= upper_bound(problem, box)[0] * (1 + 1e-12)
 
 
+@pytest.mark.parametrize("combined", ["sum", "product"])
+def test_the_bound_of_a_point_is_its_objective(combined):
+    problem = DesignProblem(fractional_power=1.5, combined=combined)
+    section = Section(0.019, 0.0035, problem.bounds.width[1], problem.bounds.wall[0])
+    box = np.array([[section.top, section.top, section.bottom, section.bottom]]).T
+    bound = upper_bound(problem, box)[0]
+    assert bound == pytest.approx(objective(problem, section), rel=1e-12)
+
+
+def test_sum_and_product_are_of_the_two_shares():
+    problem, section = DesignProblem(fractional_power=1.5), Section(0.019, 0.0035, 0.030, 0.0015)
+    found = evaluate(problem, section)
+    shares = found.torque / problem.torque_scale, found.angle / problem.angle_scale
+    assert found.objective == pytest.approx(sum(shares), rel=1e-12)
+    other = evaluate(replace(problem, combined="product"), section)
+    assert other.objective == pytest.approx(shares[0] * shares[1], rel=1e-12)
+
+
 @settings(max_examples=25)
 @given(problems())
 def test_objective_falls_with_the_wall_and_grows_with_the_width(problem):
