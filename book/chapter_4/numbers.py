@@ -1,44 +1,57 @@
 """Recomputation of the numbers printed in Chapter 4."""
 
+from collections.abc import Sequence
+from dataclasses import replace
 from itertools import product
+from typing import Literal
 
-from book.chapter_4.controllers import own_step
+import control
+import numpy as np
+
+from book.chapter_4.controllers import own_loop
+from book.chapter_4.pid_gains import pid_gains
 from book.companion.verdict import simulated
+from softgrip.control.designs import STEP
+from softgrip.control.pid import Gains, pid_state_space
+from softgrip.control.step_metrics import settling_time
+from softgrip.dynamics.second_order import SecondOrder, full_state_space
 from softgrip.logs.pushes import compare
 from softgrip.logs.staircase import judge_staircase
-from softgrip.logs.steps import StepResponse, judge_step_log
+from softgrip.logs.steps import StepResponse, judge_step, judge_step_log
 from softgrip.provenance import data_folder
-from softgrip.pump.flow import TABLE_4_1, Pump, PumpRun, parameter_set
+from softgrip.pump.flow import Pump, PumpRun
 from softgrip.pump.gas import ATMOSPHERE, capacity_growth
 from softgrip.units import DEG, ML, REV
 
-SETTLING = {"simulated": (5.0, 2.5), "measured": (3.95, 2.38)}
-"""Settling times in s that Sections 4.3 and 4.4 print: actuator's model alone, full model."""
+Parameter = Literal["area", "lead", "motor speed"]
 
 
-def fastest(name: str) -> float:
-    """Return a parameter of the set of Table 4.1 with the largest pressure rate, Eq. (4.5)."""
-    sets = product(*TABLE_4_1.values())
-    best = max(sets, key=lambda values: PumpRun(Pump(*values[:2]), values[2]).flow)
-    found = dict(zip(TABLE_4_1, best, strict=True))
-    return found[name] / (REV if name == "motor_speed" else 1)
+def fastest(
+    name: Parameter, areas: Sequence[float], leads: Sequence[float], speeds: Sequence[float]
+) -> float:
+    """Return a parameter of the set with the largest pressure rate, Eq. (4.5).
+
+    Args:
+        name: Which.
+        areas, leads, speeds: To choose from, in m^2, m and rev/s.
+
+    >>> fastest("lead", areas=[6e-4], leads=[0.002, 0.008], speeds=[1.65, 3.3])
+    0.008
+    """
+    area, lead, speed = max(
+        product(areas, leads, speeds), key=lambda s: PumpRun(Pump(s[0], s[1]), s[2] * REV).flow
+    )
+    return {"area": area, "lead": lead, "motor speed": speed}[name]
 
 
-def rate_ratio() -> float:
-    """Divide the rate with small lead and large area by that with large lead and small area."""
-    (small, large), (long, short), (speed, _) = TABLE_4_1.values()
-    return PumpRun(Pump(large, short), speed).flow / PumpRun(Pump(small, long), speed).flow
+def rate_ratio(small_area: float, large_area: float, short_lead: float, long_lead: float) -> float:
+    """Divide the rate with large area and short lead by that with small area and long lead.
 
-
-def lead_time_ratio() -> float:
-    """Divide the time to a pressure with the smaller lead by that with the larger one."""
-    return parameter_set("default").flow / parameter_set("smaller lead").flow
-
-
-def settling_reduction(kind: str) -> float:
-    """Return by how much the full model's settling time is shorter, in percent."""
-    alone, full = SETTLING[kind]
-    return 100 * (1 - full / alone)
+    >>> rate_ratio(1.0, 4.0, 0.002, 0.008)
+    1.0
+    """
+    first, second = Pump(large_area, short_lead), Pump(small_area, long_lead)
+    return first.displacement / second.displacement
 
 
 @simulated
@@ -51,18 +64,68 @@ def model_error(model: str, log: str = "push-a") -> float:
     return abs(100 * found.error(getattr(found, model)))
 
 
-def growth_when_compressed(pressure: float = ATMOSPHERE) -> float:
-    """Return c of Eq. (4.7) for gas in a closed rigid volume, 1/Pa: its capacity falls."""
-    return float(capacity_growth(pressure, 90 * ML))
+def growth_when_compressed(pressure: float = ATMOSPHERE, softening: float = 0.0) -> float:
+    """Return c of Eq. (4.7), 1/Pa, for 90 mL of air that is closed in and compressed.
+
+    Args:
+        pressure: Absolute, Pa.
+        softening: d2V_f/dP2 of the finger, m^3/Pa^2; 0 for a rigid one.
+    """
+    volume = 90 * ML * ATMOSPHERE / pressure
+    return float(capacity_growth(pressure, volume, compliance_slope=softening))
 
 
 @simulated
-def settling_on_model(design: str, criterion: str = "settled_5_percent") -> float:
-    """Return the settling time of a tuned PID on the linear model it was designed on, in s.
+def settling_on_model(
+    design: str, criterion: str = "settled_5_percent", share: float = 1.0
+) -> float:
+    """Return the settling time of a PID on the linear model it was designed on, in s.
 
-    ``design`` is "actuator" or "full"; the model is identified from logs of the simulated rig.
+    Args:
+        design: "actuator" or "full"; the model is identified from logs of the simulated rig.
+        criterion: Name of a field of `StepResponse`.
+        share: Of the tuned gains, which are those for the least time-weighted error.
     """
-    return float(getattr(own_step(design), criterion))
+    tuned = pid_gains(design)
+    gains = replace(tuned, kp=share * tuned.kp, ki=share * tuned.ki, kd=share * tuned.kd)
+    found = own_loop(design, gains, duration=20.0)
+    return float(
+        getattr(judge_step(found.time, np.ravel(found.measured), STEP, window=0), criterion)
+    )
+
+
+def settling_by_author(
+    gains: Sequence[float],
+    natural_frequency: float,
+    damping_ratio: float,
+    gain: float,
+    band: float = 0.02,
+) -> float:
+    """Return the settling time, s, of the author's PID on pump and finger as his script has them.
+
+    The loop is linear, without the motor's limit.
+
+    Args:
+        gains: Proportional, integral, derivative.
+        natural_frequency: rad/s.
+        damping_ratio: Dimensionless.
+        gain: Numerator of the plant ``gain / (s (s^2 + 2 zeta w s + w^2))``.
+        band: Half width about the set point, as a share of the step.
+    """
+    finger = SecondOrder(natural_frequency, damping_ratio, gain / natural_frequency**2)
+    open_loop = control.series(pid_state_space(Gains(*gains)), full_state_space(finger, 1.0))
+    time = np.linspace(0, 60, 12001)
+    found = control.forced_response(control.feedback(open_loop), time, np.ones_like(time))
+    return float(settling_time(time, np.ravel(found.outputs), final=1.0, band=band))
+
+
+def gain_ratio(kp: float, ki: float, kd: float) -> float:
+    """Return integral over derivative time of a PID, ``kp^2 / (ki kd)``.
+
+    >>> gain_ratio(2.0, 1.0, 1.0)
+    4.0
+    """
+    return kp**2 / (ki * kd)
 
 
 def _step_log(design: str) -> StepResponse:

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from book.chapter_5 import step_protocols, step_sweep
-from book.chapter_5.numbers import PRINTED_RMS
+from book.chapter_5.numbers import printed_rms
 from book.chapter_5.step_models import ANGLES, FINGERS, KINDS, compare, identified_at, rms_error
 from book.chapter_5.step_protocols import stated_stiffness
 from book.companion.exhibit import figure, table
@@ -189,7 +189,7 @@ def table_5_e() -> pd.DataFrame:
                 for short, errors in zip(SHORT, kept.values(), strict=True)
             },
         }
-        for (design, angle, kind), printed in PRINTED_RMS.items()
+        for (design, angle, kind), printed in printed_rms().items()
     )
 
 

@@ -79,6 +79,24 @@ def change(after: float, before: float) -> float:
     return 100 * abs(after / before - 1)
 
 
+def largest_ratio(parts: Sequence[float], wholes: Sequence[float]) -> float:
+    """Return the largest of the ratios of parts to wholes, pair by pair.
+
+    >>> largest_ratio([1.0, 3.0], [2.0, 4.0])
+    0.75
+    """
+    return max(part / whole for part, whole in zip(parts, wholes, strict=True))
+
+
+def largest_change(after: Sequence[float], before: Sequence[float]) -> float:
+    """Return the largest `change`, pair by pair, in percent.
+
+    >>> round(largest_change([2.365, 1.727], [2.174, 1.538]), 2)
+    12.29
+    """
+    return max(map(change, after, before))
+
+
 def degrees(radians: float) -> float:
     """Convert an angle."""
     return radians * 180 / pi

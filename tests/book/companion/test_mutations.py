@@ -67,7 +67,7 @@ CASES: list[tuple[str, Callable, str, str, str]] = [
      powerlaw._powers, "** exponents", "** 1", "table-5.2-estimated-dragon-skin-fx-pro"),
     ("Eq. (5.8): the factors in the wrong order",
      powerlaw.FractionalPowerRegressor.predict,
-     "self.coef_ + ", "self.coef_[::-1] + ", "5.4-estimated-dragon-skin-20"),
+     "self.coef_ + ", "self.coef_[::-1] + ", "table-5.2-estimated-dragon-skin-20"),
     ("Eq. (5.10): another factor",
      linear.spring_constant, "2 * young_modulus", "4 * young_modulus", "5.3-degrades-spring"),
     ("Eq. (5.11): another factor",
