@@ -120,11 +120,14 @@ def measure() -> Iterator[Fitted]:
     """Fit every material in every way; needs the tensile tests, takes some seconds."""
     tests = [tensile.load(name) for name in table_5_1()]
     for fitting, test in product(grid(), tests):
-        try:
-            power = fit(test, fitting).fractional_power
-        except InvalidInputError:
-            power = nan
-        yield Fitted(test.name, fitting, power)
+        yield Fitted(test.name, fitting, _power(test, fitting))
+
+
+def _power(test: TensileTest, fitting: Fitting) -> float:
+    try:
+        return fit(test, fitting).fractional_power
+    except InvalidInputError:
+        return nan
 
 
 KEPT = Kept(
@@ -150,9 +153,12 @@ def kept() -> MappingProxyType[tuple[str, Fitting], float]:
 
 
 def fractional_power(name: str, fitting: Fitting) -> float:
-    """Return n of a material: fitted now where its test can be had, else as it is kept."""
+    """Return n of a material: fitted now where its test can be had, else as it is kept.
+
+    NaN as of `Fitted`.
+    """
     if tensile.available():
-        return fit(tensile.load(name), fitting).fractional_power
+        return _power(tensile.load(name), fitting)
     return kept()[name, fitting]
 
 

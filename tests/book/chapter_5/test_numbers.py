@@ -110,3 +110,8 @@ def test_printed_errors_have_each_test_once_and_grow_with_the_step():
     for design in FINGERS:
         for kind in ("linear", "ludwick"):
             assert all(a < b for a, b in pairwise(errors[design, x, kind] for x in (60, 90)))
+
+
+def test_a_way_of_fitting_that_gives_no_power_gives_nan():
+    # The engineering curve lies below E far beyond a strain of one: no rising power does that.
+    assert np.isnan(fitted_power("Dragon Skin FX Pro", 3.0, "engineering", two_decimals=True))
