@@ -11,7 +11,7 @@ from scipy.stats import spearmanr
 
 from book.companion.exhibit import figure, table
 from book.companion.style import GREY, LUDWICK, MEASURED, OTHER, PRINTED, VERMILION, WIDTH, sheet
-from book.companion.verdict import ledger, outcome_of
+from book.companion.verdict import ledger
 from softgrip.arrays import Floats
 from softgrip.materials import ludwick, tensile, yeoh
 from softgrip.materials.facts import facts
@@ -19,6 +19,7 @@ from softgrip.materials.fitting import (
     LONGEST_STRAINS,
     Fitting,
     bootstrap_interval,
+    comes_out,
     fractional_power,
     kept,
     ranking,
@@ -146,7 +147,7 @@ def table_5_1_beside_tests() -> pd.DataFrame:
     """Tabulate the ten materials beside what their tensile tests give."""
     rows = []
     for material in table_5_1().values():
-        known = facts()[material.name]
+        known, fitted = facts()[material.name], fractional_power(material.name, BEST)
         interval = "no test"
         if tensile.available():
             low, high = bootstrap_interval(tensile.load(material.name), BEST)
@@ -155,9 +156,9 @@ def table_5_1_beside_tests() -> pd.DataFrame:
             {
                 "material": material.name,
                 "n printed": f"{material.fractional_power:.3f}",
-                "n fitted": f"{fractional_power(material.name, BEST):.3f}",
+                "n fitted": f"{fitted:.3f}",
                 "95 %": interval,
-                "outcome": outcome_of(5, "table-5.1-n-{key}", material.name),
+                "comes out": "yes" if comes_out(fitted, material.fractional_power) else "no",
                 "E": f"{material.young_modulus / MPa:.2f}",
                 "at 100 %": f"{known.hundred_percent_modulus / MPa:.3f}",
                 "viscosity": f"{material.mixed_viscosity:g}",
@@ -175,10 +176,12 @@ def table_5_2() -> pd.DataFrame:
         {
             "what": entry.claim.what,
             "printed": f"{'' if entry.claim.relation == '=' else '< '}{entry.claim.printed}",
-            "recomputed": f"{entry.spread.value:.4g}" if entry.spread else "",
+            "recomputed": f"{spread.value:.4g}",
+            "rounding": f"{spread.low:.4g} to {spread.high:.4g}",
             "outcome": entry.outcome,
         }
         for entry in ledger(5, ["Table 5.2", "Section 5.5"])
+        if (spread := entry.spread)
     )
 
 

@@ -178,6 +178,15 @@ class Score:
     """Of the relative errors of n."""
 
 
+def comes_out(fitted: float, printed: float) -> bool:
+    """Tell whether two powers have the same reciprocal to two decimals.
+
+    >>> comes_out(2.1706, 2.174), comes_out(2.2312, 2.174)
+    (True, False)
+    """
+    return f"{1 / fitted:.2f}" == f"{1 / printed:.2f}"
+
+
 def score(fitting: Fitting) -> Score:
     """Hold a way of fitting against the ten printed values."""
     found = kept()
@@ -186,7 +195,7 @@ def score(fitting: Fitting) -> Score:
     errors = np.nan_to_num([abs(n / printed - 1) for n, printed in pairs], nan=inf)
     return Score(
         fitting,
-        come_out=sum(f"{1 / n:.2f}" == f"{1 / printed:.2f}" for n, printed in pairs),
+        come_out=sum(comes_out(n, printed) for n, printed in pairs),
         within_2_percent=int(np.sum(errors <= 0.02)),
         within_5_percent=int(np.sum(errors <= 0.05)),
         median_error=float(np.median(errors)),
