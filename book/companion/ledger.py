@@ -83,7 +83,7 @@ def main() -> None:
     asked = parser.parse_args()
     entries = ledger()
     asked.into.parent.mkdir(parents=True, exist_ok=True)
-    asked.into.write_text(json.dumps([e.record() for e in entries], indent=1) + "\n")
+    asked.into.write_text(json.dumps([e.record() for e in entries], indent=1, allow_nan=False) + "\n")
     write_csv(asked.into.with_suffix(".csv"), entries)
     for outcome, count in Counter(entry.outcome for entry in entries).most_common():
         print(f"{count:5} {outcome}")

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from importlib import import_module
 from itertools import chain
+from math import isfinite
 from typing import Any, TypeVar
 
 from book.companion import relations
@@ -43,6 +44,10 @@ class Outcome(StrEnum):
     """Inputs that decide are not printed."""
     GIVEN = "given"
     """A setting, a part or a measurement: there is nothing to hold it against."""
+
+
+def _finite(value: float) -> float | None:
+    return value if isfinite(value) else None
 
 
 @dataclass(frozen=True)
@@ -92,15 +97,15 @@ class Entry:
             "outcome": str(self.outcome),
             "basis": str(self.basis),
             "nature": claim.nature,
-            "value": spread.value if spread else None,
-            "low": spread.low if spread else None,
-            "high": spread.high if spread else None,
+            "value": _finite(spread.value) if spread else None,
+            "low": _finite(spread.low) if spread else None,
+            "high": _finite(spread.high) if spread else None,
             "assumption": assumed.text if assumed else "",
             "fitted_to": [*assumed.fitted_to] if assumed else [],
             "tries": assumed.tries if assumed else 0,
             "under_assumption": self.under_assumption,
             "band": claim.band.what if claim.band else "",
-            "band_values": [[*pair] for pair in self.band],
+            "band_values": [[words, _finite(value)] for words, value in self.band],
             "in_band": self.in_band,
             "stands_on": sorted(references(claim.arguments)),
             "author": f"{source.repository} {source.file} at {source.commit}" if source else "",
