@@ -83,7 +83,8 @@ def main() -> None:
     asked = parser.parse_args()
     entries = ledger()
     asked.into.parent.mkdir(parents=True, exist_ok=True)
-    asked.into.write_text(json.dumps([e.record() for e in entries], indent=1, allow_nan=False) + "\n")
+    records = json.dumps([entry.record() for entry in entries], indent=1, allow_nan=False)
+    asked.into.write_text(records + "\n")
     write_csv(asked.into.with_suffix(".csv"), entries)
     for outcome, count in Counter(entry.outcome for entry in entries).most_common():
         print(f"{count:5} {outcome}")
