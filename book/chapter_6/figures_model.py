@@ -7,7 +7,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from book.chapter_6.numbers import COMPARED, shaped
+from book.chapter_6 import filters
+from book.chapter_6.numbers import COMPARED
 from book.companion.exhibit import figure, table
 from book.companion.style import BLUE, GREEN, GREY, ORANGE, PRINTED, PURPLE, VERMILION, sheet
 from softgrip.control.loop import SPEED_LIMIT
@@ -15,7 +16,6 @@ from softgrip.control.step_metrics import settling_time
 from softgrip.gripper.gripper_loop import run_gripper
 from softgrip.gripper.internal_model import InternalModelController, controller_matrices
 from softgrip.gripper.inversion import mean_inverse
-from softgrip.gripper.loop_shaping import magnitude_gap
 from softgrip.gripper.plant import PRINTED as GRIPPER
 from softgrip.gripper.printed_loop import FILTERS, FINE, equal_targets, run_printed
 from softgrip.gripper.reach import outside_share, project
@@ -28,6 +28,7 @@ from softgrip.gripper.robustness import (
 from softgrip.gripper.shaping_filter import (
     FAST,
     bandwidth,
+    far_pole,
     filter_state_space,
     plant_inside,
     rounding_margin,
@@ -94,16 +95,25 @@ def figure_6_a() -> Figure:
 
 @figure("6.B", Provenance.PRINTED)
 def figure_6_b() -> Figure:
-    """Draw the gain of the printed and the re-derived filters."""
-    drawn, axes = sheet(3.4)
+    """Draw the printed filters, those of the rule, and the peaks by which the rule is known."""
+    drawn, (upper, lower) = sheet(6.0, 2, 1, sharex=True)
     for (name, printed), colour in zip(FILTERS.items(), (BLUE, ORANGE), strict=True):
-        low_pass = filter_state_space(*printed)
-        _, ours = shaped(name)
-        for system, dash, whose in ((low_pass, "-", "printed"), (ours.complementary, "--", "ours")):
-            gain = np.abs(system(1j * COMPARED)).ravel()
-            axes.loglog(COMPARED, gain, color=colour, ls=dash, label=f"{name}, {whose}")
-    axes.set(xlabel="frequency (rad/s)", ylabel="|H|", ylim=(1e-4, 2))
-    axes.legend(loc="lower left")
+        c = filters.CROSSOVER[name]
+        ours = filters.designed(name, c, filters.author_plant())
+        gain = np.abs(filter_state_space(*printed)(1j * COMPARED)).ravel()
+        upper.loglog(COMPARED, gain, color=colour, label=f"{name}, printed")
+        few = COMPARED[::8]
+        upper.loglog(few, np.abs(ours.complementary(1j * few)), "o", ms=3, color=colour, mfc="none",
+                     label=f"{name}, by the rule for {c:g}/s")  # fmt: skip
+        loop = filters.as_printed(name)
+        lower.semilogx(COMPARED, loop.mixed_sensitivity(COMPARED), color=colour, label=f"{name}")
+        used = loop.coprime_gain(COMPARED) * loop.largest_margin * filters.KEPT
+        lower.semilogx(COMPARED, used, color=colour, ls="--", label=f"{name}, used of the margin")
+    upper.set(title="(a)", ylabel="|H|", ylim=(1e-4, 2))
+    upper.legend(loc="lower left")
+    lower.axhline(1, color=GREY, lw=1)
+    lower.set(title="(b)", xlabel="frequency (rad/s)", ylabel="mixed sensitivity", ylim=(0.4, 1.7))
+    lower.legend(loc="lower left", ncols=2)
     return drawn
 
 
@@ -153,32 +163,40 @@ def table_6_a() -> pd.DataFrame:
 
 @table("6.B", Provenance.PRINTED)
 def table_6_b() -> pd.DataFrame:
-    """Tabulate the filters."""
+    """Tabulate the filters, what can be read from them, and what the rule gives."""
     columns = {}
     for name, printed in FILTERS.items():
         low_pass = filter_state_space(*printed)
         (damping, stiffness), slack = plant_inside(*printed), rounding_margin(*printed)
         s = 1e-4j
         loop = low_pass(s).item() / (1 - low_pass(s).item())
-        roll_off, ours = shaped(name)
-        gap = np.abs(magnitude_gap(ours.complementary, low_pass, COMPARED))
-        inside = gap[bandwidth(low_pass) > COMPARED]
+        author, c = filters.author_plant(), filters.CROSSOVER[name]
+        peaks = filters.as_printed(name)
+        free = filters.designed(name, c, author, hold=False)
         columns[name] = {
             "gain at 0": f"{low_pass(0).item().real:.4f}",
             "bandwidth (rad/s)": f"{bandwidth(low_pass):.2f}",
             "largest gain": f"{np.abs(low_pass(1j * COMPARED)).max():.3f}",
-            "fastest pole (rad/s)": f"{np.abs(low_pass.poles()).max():.0f}",
             "relative degree": f"{len(printed[1]) - len(printed[0])}",
             "loop at low frequency": f"{abs(loop * s):.3f}/s",
             "plant inside, 1/s": f"{damping:.3f} ± {slack[0]:.3f}",
             "plant inside, 1/s²": f"{stiffness:.3f} ± {slack[1]:.3f}",
-            "ours: roll-off (rad/s)": f"{roll_off:.1f}",
-            "ours: least gamma": f"{ours.gamma:.2f}",
-            "ours: bandwidth (rad/s)": f"{bandwidth(ours.complementary):.2f}",
-            "ours: largest gap of the gain (%)": f"{100 * gap.max():.0f}",
-            "ours: the same within the bandwidth (%)": f"{100 * inside.max():.0f}",
+            "peaks are equal for (rad/s)": f"{filters.crossover_of_peaks(*printed):.3f}",
+            "kept of the largest margin": f"{peaks.margin / peaks.largest_margin:.4f}",
+            "far pole (rad/s)": f"{far_pole(*printed):.1f}",
         }
-    return pd.DataFrame(columns).rename_axis("for the target loop").reset_index()
+        for words, finger, crossover in (
+            ("author's plant", author, c),
+            ("author's plant, c as named", author, float(name.removesuffix("/s"))),
+            ("SPA 1", GRIPPER.fingers[0], c),
+            ("SPA 2", GRIPPER.fingers[1], c),
+            ("mean finger", GRIPPER.mean, c),
+        ):
+            off = filters.deviations(name, filters.designed(name, crossover, finger))
+            columns[name][f"off, {words} (%)"] = f"{np.abs(off).max():.2f}"
+        columns[name]["far pole left free (rad/s)"] = f"{np.abs(free.controller.poles()).max():.0f}"
+        columns[name]["and the peak lower by (%)"] = f"{100 * (1 - free.cost / peaks.cost):.2f}"
+    return pd.DataFrame(columns).rename_axis("named for the target loop").reset_index()
 
 
 @table("6.C", Provenance.PRINTED)

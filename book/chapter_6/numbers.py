@@ -2,20 +2,18 @@
 
 import numpy as np
 
-from book.chapter_6 import comparison, results
+from book.chapter_6 import comparison, filters, results
 from book.chapter_6 import speed as gripper_speed
 from book.companion.verdict import simulated
 from softgrip.control.step_metrics import settling_time
 from softgrip.gripper.gripper_loop import GripperRun, noise_gain
 from softgrip.gripper.internal_model import controller_matrices
 from softgrip.gripper.inversion import mean_inverse, moore_penrose_inverse
-from softgrip.gripper.loop_shaping import ShapedLoop, fit_roll_off
 from softgrip.gripper.plant import PRINTED
-from softgrip.gripper.printed_loop import FILTERS, FINE, crossover, equal_targets, run_printed
+from softgrip.gripper.printed_loop import FILTERS, FINE, equal_targets, run_printed
 from softgrip.gripper.reach import direction, project
 from softgrip.gripper.shaping_filter import FAST, filter_state_space
 from softgrip.materials.table import material
-from softgrip.reads import remembered
 from softgrip.units import DEG, ML, REV, MPa
 
 COMPARED = np.geomspace(0.1, 100, 200)
@@ -56,34 +54,40 @@ def inverse_gap(frequency: float) -> float:
     return float(100 * np.abs(ratio - 1).max())
 
 
-def loop_gain(target: str) -> float:
-    """Return k of the loop k/s that a printed H has at low frequencies, rad/s."""
-    s = 1e-5j
-    low_pass = filter_state_space(*FILTERS[target])(s).item()
-    return float(abs(s * low_pass / (1 - low_pass)))
-
-
-def filter_coefficient(target: str, part: str, power: int, poles: int = 2) -> float:
-    """Return a coefficient of the re-derived H, its denominator starting with 1.
+def target_loop(numerator: tuple[float, ...], denominator: tuple[float, ...]) -> float:
+    """Return c of the target loop c/s that a filter was designed for, by its equal peaks, rad/s.
 
     Args:
-        target: "4.8/s" or "2/s".
+        numerator: Of H, highest power first; its last coefficient is the denominator's too.
+        denominator: Without the first and the last coefficient.
+    """
+    return filters.crossover_of_peaks(numerator, (1.0, *denominator, numerator[-1]))
+
+
+def filter_coefficient(
+    target: str,
+    part: str,
+    power: int,
+    crossover: float,
+    natural_frequency: float = filters.NATURAL_FREQUENCY,
+    damping_ratio: float = filters.DAMPING_RATIO,
+    hold: bool = True,
+) -> float:
+    """Return a coefficient of the H that the rule gives, its denominator starting with 1.
+
+    Args:
+        target: "4.8/s" or "2/s": the filter whose far pole is held.
         part: "num" or "den".
         power: Of s.
-        poles: That the target loop is given beyond its crossover; their place is fitted.
+        crossover: Of the target loop, rad/s.
+        natural_frequency: Of the finger that is shaped, rad/s.
+        damping_ratio: Of that finger.
+        hold: Whether the far pole is held.
     """
-    found = shaped(target, poles)[1].complementary
-    low = np.poly(found.poles()).real
-    # One input, one output: the numerator is det(sI - A + B C) - (1 - D) det(sI - A).
-    top = np.poly(found.A - found.B @ found.C).real + (found.D.item() - 1) * low
-    return float((top if part == "num" else low)[len(low) - 1 - power])
-
-
-@remembered
-def shaped(target: str, poles: int = 2) -> tuple[float, ShapedLoop]:
-    """Return the roll-off [rad/s] and the loop that come nearest to a printed H on `COMPARED`."""
-    low_pass = filter_state_space(*FILTERS[target])
-    return fit_roll_off(crossover(target), low_pass, COMPARED, order=poles)
+    finger = filters.author_plant(natural_frequency, damping_ratio)
+    loop = filters.designed(target, float(crossover), finger, hold)
+    top, low = loop.coefficients
+    return float((top if part == "num" else low)[::-1][power])
 
 
 def gain_at_rest(target: str) -> float:

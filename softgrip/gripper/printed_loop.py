@@ -19,15 +19,6 @@ FINE = 0.005
 """Period that stands for continuous time, s: the filter's fastest pole is at 260 rad/s."""
 
 
-def crossover(target_loop: str) -> float:
-    """Return the crossover of a target loop, rad/s.
-
-    >>> crossover("4.8/s")
-    4.8
-    """
-    return float(target_loop.removesuffix("/s"))
-
-
 def equal_targets(angle: float = np.pi / 3) -> Floats:
     """Return proj(Y_d) for equal angles, rad: of pi/3 in Eq. (6.26), of pi/4 in Eq. (6.27)."""
     return project(PRINTED, [angle, angle]).reached

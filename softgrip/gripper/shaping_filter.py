@@ -4,7 +4,7 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import check_positive
+from softgrip.arrays import check_positive, read_only
 from softgrip.errors import InvalidInputError
 
 FAST = (
@@ -93,6 +93,16 @@ def plant_inside(numerator: ArrayLike, denominator: ArrayLike) -> tuple[float, f
     poles = np.roots(np.polysub(low, top))
     pair = poles[np.argsort(np.abs(poles))][1:3]
     return float(-pair.sum().real), float(pair.prod().real)
+
+
+def far_pole(numerator: ArrayLike, denominator: ArrayLike) -> float:
+    """Return the decay rate of the fastest pole of ``H / (1 - H)``, 1/s.
+
+    >>> [round(far_pole(*printed), 1) for printed in (FAST, SLOW)]
+    [260.3, 41.9]
+    """
+    loop = np.polysub(read_only(denominator), read_only(numerator))
+    return float(np.abs(np.roots(loop)).max())
 
 
 def rounding_margin(
