@@ -106,14 +106,14 @@ def figure_6_b() -> Figure:
         upper.loglog(few, np.abs(ours.complementary(1j * few)), "o", ms=3, color=colour, mfc="none",
                      label=f"{name}, by the rule for {c:g}/s")  # fmt: skip
         loop = filters.as_printed(name)
-        lower.semilogx(COMPARED, loop.mixed_sensitivity(COMPARED), color=colour, label=f"{name}")
+        lower.semilogx(COMPARED, loop.mixed_sensitivity(COMPARED), color=colour, label="peaks")
         used = loop.coprime_gain(COMPARED) * loop.largest_margin * filters.KEPT
-        lower.semilogx(COMPARED, used, color=colour, ls="--", label=f"{name}, used of the margin")
+        lower.semilogx(COMPARED, used, color=colour, ls="--", label="margin used")
     upper.set(title="(a)", ylabel="|H|", ylim=(1e-4, 2))
     upper.legend(loc="lower left")
     lower.axhline(1, color=GREY, lw=1)
-    lower.set(title="(b)", xlabel="frequency (rad/s)", ylabel="mixed sensitivity", ylim=(0.4, 1.7))
-    lower.legend(loc="lower left", ncols=2)
+    lower.set(title="(b)", xlabel="frequency (rad/s)", ylabel="mixed sensitivity", ylim=(0.4, 2))
+    lower.legend(*(part[:2] for part in lower.get_legend_handles_labels()), loc="upper right")
     return drawn
 
 

@@ -1,5 +1,7 @@
 """Recomputation of the numbers printed in Chapter 6, by linear model and on the rig."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from book.chapter_6 import comparison, filters, results
@@ -9,100 +11,94 @@ from softgrip.control.step_metrics import settling_time
 from softgrip.gripper.gripper_loop import GripperRun, noise_gain
 from softgrip.gripper.internal_model import controller_matrices
 from softgrip.gripper.inversion import mean_inverse, moore_penrose_inverse
-from softgrip.gripper.plant import PRINTED
-from softgrip.gripper.printed_loop import FILTERS, FINE, equal_targets, run_printed
+from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper
+from softgrip.gripper.printed_loop import FINE, equal_targets, run_printed
 from softgrip.gripper.reach import direction, project
-from softgrip.gripper.shaping_filter import FAST, filter_state_space
-from softgrip.materials.table import material
-from softgrip.units import DEG, ML, REV, MPa
+from softgrip.gripper.shaping_filter import FAST, filter_state_space, plant_inside
+from softgrip.units import DEG, ML, REV
 
 COMPARED = np.geomspace(0.1, 100, 200)
 """Frequencies at which filters are compared, rad/s."""
 
 
-def projection(spa: str, share: float = 0.333, digits: int | None = None) -> float:
+def fingers(
+    stiffness: Sequence[float], damping: Sequence[float] | None = None, gain: float | None = None
+) -> Gripper:
+    """Return two fingers of Eq. (6.26); damping and gain as printed if they do not matter."""
+    damping = [f.damping for f in PRINTED.fingers] if damping is None else damping
+    gain = PRINTED.mean.gain if gain is None else gain
+    pairs = zip(damping, stiffness, strict=True)
+    return Gripper(tuple(FingerDynamics(C, K, gain) for C, K in pairs))
+
+
+def projection(
+    spa: str, stiffness: Sequence[float], share: float = 0.333, digits: int | None = None
+) -> float:
     """Return an element of proj(Y_d) for equal angles of share pi, in pi rad, Eq. (6.25).
 
     With ``digits`` the direction q is cut to as many, and the result rounded.
     """
-    q = direction(PRINTED).real
+    q = direction(fingers(stiffness)).real
     q = q if digits is None else np.floor(10**digits * q) / 10**digits
-    found = float(share * q.sum() * q[int(spa) - 1])
+    found = float(share * q.sum() * q[("spa1", "spa2").index(spa)])
     return found if digits is None else round(found, digits)
 
 
-def residual(spa: str, share: float = 0.333, digits: int | None = None) -> float:
-    """Return an element of res(Y_d) for equal angles of share pi, in pi rad."""
-    return share - projection(spa, share, digits)
-
-
-def reference_degrees(finger: str, swapped: bool = False, digits: int | None = None) -> float:
-    """Return the reference of the "left" (SPA 1) or "right" finger for 45 deg, in deg."""
-    spa = "1" if (finger == "left") != swapped else "2"
-    return 180 * projection(spa, 0.25, digits)
-
-
-def inverse_denominator() -> float:
+def inverse_denominator(gain: float) -> float:
     """Return the common denominator of the mean of the elements' inverses."""
-    return float(1 / mean_inverse(PRINTED).polynomials[0, 0])
+    of = fingers([f.stiffness for f in PRINTED.fingers], gain=gain)
+    return float(1 / mean_inverse(of).polynomials[0, 0])
 
 
-def inverse_gap(frequency: float) -> float:
+def inverse_gap(frequency: float, damping: Sequence[float], stiffness: Sequence[float]) -> float:
     """Return the largest difference of the printed inverse and Theorem 2's, in percent."""
-    s = 1j * frequency
-    ratio = mean_inverse(PRINTED)(s) / moore_penrose_inverse(PRINTED)(s)
+    s, of = 1j * frequency, fingers(stiffness, damping)
+    ratio = mean_inverse(of)(s) / moore_penrose_inverse(of)(s)
     return float(100 * np.abs(ratio - 1).max())
 
 
-def target_loop(numerator: tuple[float, ...], denominator: tuple[float, ...]) -> float:
-    """Return c of the target loop c/s that a filter was designed for, by its equal peaks, rad/s.
+def target_loop(numerator: Sequence[float], denominator: Sequence[float]) -> float:
+    """Return c of the target loop c/s that a filter is the optimum of, by its peaks, rad/s.
 
     Args:
         numerator: Of H, highest power first; its last coefficient is the denominator's too.
         denominator: Without the first and the last coefficient.
     """
-    return filters.crossover_of_peaks(numerator, (1.0, *denominator, numerator[-1]))
+    return filters.crossover_of_peaks(numerator, [1.0, *denominator, numerator[-1]])
+
+
+def stiffness_inside(numerator: Sequence[float], denominator: Sequence[float]) -> float:
+    """Return the stiffness by mass of the plant in the loop H / (1 - H), as `target_loop`."""
+    return plant_inside(numerator, [1.0, *denominator, numerator[-1]])[1]
 
 
 def filter_coefficient(
     target: str,
-    part: str,
-    power: int,
+    coefficient: str,
+    natural_frequency: float,
+    damping_ratio: float,
     crossover: float,
-    natural_frequency: float = filters.NATURAL_FREQUENCY,
-    damping_ratio: float = filters.DAMPING_RATIO,
-    hold: bool = True,
+    hold: bool = False,
 ) -> float:
     """Return a coefficient of the H that the rule gives, its denominator starting with 1.
 
     Args:
-        target: "4.8/s" or "2/s": the filter whose far pole is held.
-        part: "num" or "den".
-        power: Of s.
-        crossover: Of the target loop, rad/s.
+        target: "4.8/s" or "2/s": the filter whose far pole may be held.
+        coefficient: "num" or "den" and the power of s, such as ``num-3``.
         natural_frequency: Of the finger that is shaped, rad/s.
         damping_ratio: Of that finger.
-        hold: Whether the far pole is held.
+        crossover: Of the target loop, rad/s.
+        hold: Whether the far pole is the printed one.
     """
     finger = filters.author_plant(natural_frequency, damping_ratio)
-    loop = filters.designed(target, float(crossover), finger, hold)
-    top, low = loop.coefficients
-    return float((top if part == "num" else low)[::-1][power])
+    top, low = filters.designed(target, float(crossover), finger, hold).coefficients
+    part, _, power = coefficient.partition("-")
+    return float((top if part == "num" else low)[::-1][int(power)])
 
 
-def gain_at_rest(target: str) -> float:
-    """Return the printed H at s = 0."""
-    return float(filter_state_space(*FILTERS[target])(0).real.item())
-
-
-def natural_frequency(spa: str) -> float:
+def natural_frequency(stiffness: float) -> float:
     """Return the natural frequency of an element of Eq. (6.26), rad/s."""
-    return PRINTED.fingers[int(spa) - 1].natural_frequency
-
-
-def young_modulus() -> float:
-    """Return that of Dragon Skin 20 in Table 5.1, MPa."""
-    return material("Dragon Skin 20").young_modulus / MPa
+    return FingerDynamics(1.0, stiffness, 1.0).natural_frequency
 
 
 def linear_range_degrees() -> float:
@@ -152,14 +148,14 @@ def peak_speed(target: str = "4.8/s", per_unit: float = 1 / REV, period: float =
     return float(per_unit * np.abs(step(target, period=period).commands).max())
 
 
-def highest_frequency(period: float = 0.1) -> float:
-    """Return the highest frequency that samples at a period [s] can show, in rad/s."""
-    return np.pi / period
+def highest_frequency(milliseconds: float) -> float:
+    """Return the highest frequency that samples at a period [ms] can show, in rad/s."""
+    return np.pi / (milliseconds / 1000)
 
 
-def outside(right: float) -> float:
+def outside(right: float, stiffness: Sequence[float]) -> float:
     """Return which share of a target (pi/4, right pi/4) is outside the image of P."""
-    return project(PRINTED, [np.pi / 4, right * np.pi / 4]).share
+    return project(fingers(stiffness), [np.pi / 4, right * np.pi / 4]).share
 
 
 SIDE = {"left": 0, "right": 1}

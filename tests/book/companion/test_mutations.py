@@ -17,7 +17,7 @@ from softgrip.actuator import bending, frequency
 from softgrip.actuator import section as cross_section
 from softgrip.control import lqr
 from softgrip.dynamics import consistency, linear, ludwick
-from softgrip.gripper import inversion, plant, reach
+from softgrip.gripper import fixed_order_shaping, inversion, plant, reach
 from softgrip.materials import fitting, least_squares, powerlaw
 from softgrip.materials import ludwick as tension
 from softgrip.pump import flow, gas
@@ -85,6 +85,10 @@ CASES: list[tuple[str, Callable, str, str, str]] = [
      inversion.mean_inverse, "(count * f.gain)", "f.gain", "6.4-inverse-denominator"),
     ("Eq. (6.15): a spring that pushes away",
      plant.state_space, "-finger.stiffness", "finger.stiffness", "6.4-simulated-noise-error"),
+    ("mixed sensitivity: a weight of the sensitivity without its half",
+     fixed_order_shaping.weights, "ASYMPTOTE * s + 1", "s + 1", "6.4-target-loop-2-s"),
+    ("Eq. (2.9): one finger only",
+     lifting.lift_force, "2 * friction", "friction", "2.4-chosen-lift-above-weight-tofu"),
 ]  # fmt: skip
 
 
