@@ -49,6 +49,8 @@ def test_printed_filters_come_out_for_the_authors_plant_with_their_far_pole(name
     off = deviations(name, designed(name))
     assert len(off) == 9
     assert np.abs(off).max() < 0.1
+    fastest = designed(name).controller.poles().real.min()
+    assert -fastest == pytest.approx(far_pole(*CASES[name][0]), rel=1e-6)
 
 
 @pytest.mark.parametrize("name", CASES)
