@@ -5,8 +5,10 @@ from collections import Counter
 from dataclasses import dataclass
 from math import inf
 
-from book.companion.claims import Basis, references
+from book.companion.claims import Basis, read_claims, references
+from book.companion.errata import Erratum, errata
 from book.companion.markdown import Markdown
+from book.companion.slips import ASSUMPTION, PRINT, RESULT, Change
 from book.companion.verdict import Entry, Outcome, any_meets, ledger, yields
 
 MARKS = {
@@ -111,6 +113,72 @@ def verdict_table(entries: list[Entry]) -> str:
     return f'<table class="ledger"><thead><tr>{head}</tr></thead>{bodies}</table>'
 
 
+def _linked(words: str, ids: set[str]) -> str:
+    """Return words as HTML, those that are ids of claims as links to their rows in the ledger."""
+    return " ".join(
+        f'<a href="ledger.html#claim-{word}">{word}</a>' if word in ids else html.escape(word)
+        for word in words.split(" ")
+    )
+
+
+def _change(change: Change, erratum: Erratum, ids: set[str]) -> str:
+    assumption = erratum.entry.assumption
+    said = {
+        RESULT: f"What follows, {change.does}.",
+        PRINT: f"The print {change.does}.",
+        ASSUMPTION: f"As assumed: {assumption.text if assumption else change.does}",
+    }
+    return _linked(said.get(change.of, f"{change.of} {change.does} ."), ids).replace(" .", ".")
+
+
+SHOWN = 3
+"""Changes that are shown, if no more than these recover a number; of more, the smallest."""
+
+
+def _tries(erratum: Erratum, ids: set[str]) -> str:
+    found = erratum.found
+    if not found.recovering:
+        return f"No single change found: {found.tried} were tried."
+    few = len(found.recovering) <= SHOWN
+    shown = found.recovering if few else found.recovering[:1]
+    changes = " Or: ".join(_change(change, erratum, ids) for change in shown)
+    words = f"{changes} <small>{len(found.recovering)} of {found.tried} changes bring it out"
+    if found.other_numbers:
+        words += f", and {found.others} of {found.other_numbers} other numbers"
+    return words + f"{': a weak hint' if erratum.weak else ''}.</small>"
+
+
+def _erratum(erratum: Erratum, ids: set[str]) -> str:
+    claim, spread = erratum.entry.claim, erratum.entry.spread
+    unit = "" if claim.unit == "1" else f" {claim.unit}"
+    sign = "" if claim.relation == "=" else f"{claim.relation} "
+    used = _linked(" , ".join(sorted(references(claim.arguments))), ids).replace(" ,", ",")
+    value = _range(spread.low, spread.high) if spread else ""
+    return (
+        f'<tr><td><a href="ledger.html#claim-{claim.id}">{html.escape(claim.what)}</a>'
+        f" <small>{html.escape(claim.where)}</small></td>"
+        f"<td class='number'>{html.escape(sign + claim.printed + unit)}</td>"
+        f"<td>{value}{f' <small>from {used}</small>' if used else ''}</td>"
+        f"<td>{_tries(erratum, ids)}</td></tr>"
+    )
+
+
+def errata_table(found: list[Erratum]) -> str:
+    """Return errata as HTML, a table a chapter: printed, what follows, the smallest change."""
+    ids = {claim.id for claim in read_claims()}
+    names = ("what", "printed", "the rest of the print gives", "smallest change that recovers it")
+    head = "".join(f'<th scope="col">{name}</th>' for name in names)
+    chapters: dict[int, list[str]] = {}
+    for erratum in found:
+        chapters.setdefault(erratum.entry.claim.chapter, []).append(_erratum(erratum, ids))
+    return "".join(
+        f"<h2>Chapter {chapter}</h2>"
+        f'<table class="ledger errata"><thead><tr>{head}</tr></thead>'
+        f"<tbody>{''.join(rows)}</tbody></table>"
+        for chapter, rows in sorted(chapters.items())
+    )
+
+
 def counts_table(entries: list[Entry]) -> str:
     """Return the counts by chapter and outcome as a Markdown table."""
     lines = [
@@ -181,3 +249,15 @@ def show_bases() -> Markdown:
 def show_assumptions() -> Markdown:
     """Show the assumptions that judge, what they were fitted to, and what they bring out."""
     return Markdown(assumptions_table(ledger()))
+
+
+def show_errata() -> Html:
+    """Show the printed numbers that other prints exclude, and what would recover each."""
+    found = errata()
+    none = sum(not erratum.change for erratum in found)
+    weak = sum(erratum.weak and bool(erratum.change) for erratum in found)
+    counts = (
+        f"{len(found)} numbers. A single change that would recover few others is found for "
+        f"{len(found) - none - weak} of them, a weak hint for {weak}, and none for {none}."
+    )
+    return Html(f"<p>{counts}</p>{errata_table(found)}")

@@ -1,7 +1,7 @@
 """``python -m book.companion.ledger``: judge every claim, write ledger.json and ledger.csv.
 
-``--accept`` also writes the outcomes and values that the tests expect from now on, and the counts
-in the README; the change then shows in the diff.
+``--accept`` also writes the outcomes and values that the tests expect from now on, the errata that
+follow from them, and the counts in the README; the change then shows in the diff.
 """
 
 import argparse
@@ -14,6 +14,7 @@ from math import isclose
 from pathlib import Path
 
 from book.companion.chips import counts_table
+from book.companion.errata import KEPT
 from book.companion.verdict import Entry, ledger
 from softgrip.kept import write_data
 from softgrip.provenance import Provenance, data_folder, data_rows
@@ -97,6 +98,7 @@ def main() -> None:
             source="book.companion.ledger --accept",
             provenance=Provenance.PRINTED,
         )
+        KEPT.write()
     if Path("README.md").is_file():
         write_counts(Path("README.md"), counts_table(entries))
 
