@@ -128,7 +128,8 @@ def _change(change: Change, erratum: Erratum, ids: set[str]) -> str:
         PRINT: f"The print {change.does}.",
         ASSUMPTION: f"As assumed: {assumption.text if assumption else change.does}",
     }
-    return _linked(said.get(change.of, f"{change.of} {change.does} ."), ids).replace(" .", ".")
+    given = change.of if change.of in ids else f"The input {change.of}"
+    return _linked(said.get(change.of, f"{given} {change.does} ."), ids).replace(" .", ".")
 
 
 SHOWN = 3

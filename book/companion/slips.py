@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from book.companion.claims import Claim, read_claims
-from book.companion.printed import Printed, Spread, carried, decimals
+from book.companion.printed import CORNERS_UP_TO, Printed, Spread, carried, decimals
 from book.companion.verdict import meets
 
 RESULT, PRINT, ASSUMPTION = "result", "print", "assumption"
@@ -100,10 +100,10 @@ class Input:
 
 
 def reprints(text: str) -> Iterator[tuple[str, str]]:
-    """Yield a number with two neighbouring digits swapped, then with one changed, nearest first.
+    """Yield a number with two neighbouring digits swapped, or with one changed, nearest first.
 
     >>> [new for new, _ in reprints("2.1")][:4]
-    ['1.2', '2.0', '2.2', '2.3']
+    ['2.0', '2.2', '2.3', '2.4']
     """
     mantissa, e, exponent = text.partition("e")
     places = [k for k, character in enumerate(mantissa) if character.isdigit()]
@@ -117,10 +117,10 @@ def reprints(text: str) -> Iterator[tuple[str, str]]:
         if mantissa[first] != mantissa[second]
     ]
     changed = [put({k: digit}) for k in places for digit in DIGITS if digit != mantissa[k]]
-    changed.sort(key=lambda new: abs(float(new) - float(text)))
     named = [*((new, SWAPPED) for new in swapped), *((new, CHANGED) for new in changed)]
     # Nobody prints 03 for 3.
-    yield from ((new, name) for new, name in named if not re.match(r"-?0\d", new))
+    likely = [(new, name) for new, name in named if not re.match(r"-?0\d", new)]
+    yield from sorted(likely, key=lambda reprint: abs(float(reprint[0]) - float(text)))
 
 
 def _text(number: Printed) -> str:
@@ -293,13 +293,14 @@ def search(
         hold(change, changed)
     width = (spread.high - spread.low) / 2 / abs(spread.value) if spread.value else 0.0
     arguments, inputs = _inputs(function, claim.arguments, resolved)
+    # Rounding is carried for what comes near alone: with many inputs that takes long.
+    reach = 3.0 if len(inputs) <= CORNERS_UP_TO else 1.25
     for change, changed_arguments in _changed_inputs(arguments, inputs):
         value = _quietly(partial(_value, function, changed_arguments))
         if value is None or value in values:
             continue
         values[value] = None
-        # Rounding is carried, which takes long, only for what comes near.
-        if _near(claim, value, 3 * width):
+        if _near(claim, value, reach * width):
             exactly = _quietly(partial(carried, function, changed_arguments))
             if exactly and meets(claim, exactly.low, exactly.high):
                 recovering.append(change)

@@ -134,7 +134,7 @@ def test_kept_searches_are_those_of_the_list(listed):
 
 
 def test_a_search_gives_the_same_again(listed):
-    for erratum in [listed[0], listed[len(listed) // 2], listed[-1]]:
+    for erratum in sorted(listed, key=lambda erratum: erratum.found.tried)[:12:3]:
         assert searched(erratum.entry) == erratum.found
 
 
@@ -229,9 +229,9 @@ def brings_out(entry, change: Change) -> bool:
     return meets(claim, reached.low, reached.high)
 
 
-def test_each_change_that_is_listed_brings_the_print_out(listed):
+def test_each_change_that_is_shown_brings_the_print_out(listed):
     for erratum in listed:
-        for change in erratum.found.recovering:
+        for change in erratum.found.recovering[:SHOWN]:
             assert brings_out(erratum.entry, change), (erratum.entry.claim.id, change)
 
 
