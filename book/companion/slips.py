@@ -216,12 +216,12 @@ def _inputs(
     return arguments, [*found.values()]
 
 
-def _beside(item: Input, claims: Mapping[str, Claim]) -> Iterator[tuple[str, Printed]]:
-    """Yield the other numbers of the place and unit of an input that a claim prints."""
-    own = claims.get(item.name)
-    for other in claims.values() if own else ():
-        if own and other is not own and (other.where, other.unit) == (own.where, own.unit):
-            yield f"read as {other.id}", Printed(other.printed, exact=other.exact)
+def _beside(id: str, claims: Mapping[str, Claim]) -> Iterator[Claim]:
+    """Yield the claims of other numbers of the place and unit of one that a claim prints."""
+    if own := claims.get(id):
+        for other in claims.values():
+            if (other.where, other.unit) == (own.where, own.unit) and other.printed != own.printed:
+                yield other
 
 
 def _read(item: Input, claims: Mapping[str, Claim]) -> Iterator[tuple[str, Printed]]:
@@ -232,14 +232,14 @@ def _read(item: Input, claims: Mapping[str, Claim]) -> Iterator[tuple[str, Print
     for name, operation in () if exact else OPERATIONS.items():  # a count has no unit
         if number := _quietly(partial(_operated, item.number, operation)):
             yield name, number
-    yield from _beside(item, claims)
+    for other in _beside(item.name, claims):
+        yield f"read as {other.id}", Printed(other.printed, exact=other.exact)
 
 
 def _changed_inputs(
-    arguments: Mapping[str, Any], inputs: list[Input]
+    arguments: Mapping[str, Any], inputs: list[Input], claims: Mapping[str, Claim]
 ) -> Iterator[tuple[Change, Any]]:
     """Yield the arguments after each change of an input, and after each exchange of two."""
-    claims = {claim.id: claim for claim in read_claims()}
     for item in inputs:
         for name, number in _read(item, claims):
             yield Change(item.name, name), _replaced(arguments, item, number)
@@ -289,13 +289,18 @@ def search(
     for text, name in prints:
         if meets(replace(claim, printed=text), spread.low, spread.high):
             recovering.append(Change(PRINT, f"as {text}, {name}"))
+    claims = {other.id: other for other in read_claims()}
+    exchanged = [(other.id, _printing(claim, other)) for other in _beside(claim.id, claims)]
+    for id, other in exchanged:
+        if meets(other, spread.low, spread.high):
+            recovering.append(Change(PRINT, f"exchanged with {id}"))
     for change, changed in _results(claim, spread):
         hold(change, changed)
     width = (spread.high - spread.low) / 2 / abs(spread.value) if spread.value else 0.0
     arguments, inputs = _inputs(function, claim.arguments, resolved)
     # Rounding is carried for what comes near alone: with many inputs that takes long.
     reach = 3.0 if len(inputs) <= CORNERS_UP_TO else 1.25
-    for change, changed_arguments in _changed_inputs(arguments, inputs):
+    for change, changed_arguments in _changed_inputs(arguments, inputs, claims):
         value = _quietly(partial(_value, function, changed_arguments))
         if value is None or value in values:
             continue
@@ -307,8 +312,13 @@ def search(
     if assumed:
         hold(Change(ASSUMPTION, claim.assumption), assumed)
     del values[spread.value]
-    others, recovered = _by_chance(claim, spread, [*values], width)
-    return Found(len(values) + len(prints), tuple(recovering), recovered, others)
+    others, recovered = _by_chance(claim, spread, [*values], width, [o for _, o in exchanged])
+    tried = len(values) + len(prints) + len(exchanged)
+    return Found(tried, tuple(recovering), recovered, others)
+
+
+def _printing(claim: Claim, other: Claim) -> Claim:
+    return replace(claim, printed=other.printed, exact=other.exact)
 
 
 def _value(function: Callable[..., float], arguments: Mapping[str, Any]) -> float | None:
@@ -321,16 +331,25 @@ def _near(claim: Claim, value: float, width: float) -> bool:
     return meets(claim, value - margin, value + margin) is not False
 
 
-def _by_chance(claim: Claim, spread: Spread, values: list[float], width: float) -> tuple[int, int]:
-    """Count other numbers that do not come out, and those of them that changes recover."""
+def _by_chance(
+    claim: Claim, spread: Spread, values: list[float], width: float, exchanged: list[Claim]
+) -> tuple[int, int]:
+    """Count other numbers that do not come out, and those of them that changes recover.
+
+    For an exchange of prints the other number stands in the place of what is recomputed.
+    """
     others = recovered = 0
     for text in other_numbers(claim.printed):
         other = replace(claim, printed=text)
         if meets(other, spread.low, spread.high) is not False:
             continue
-        prints = (replace(claim, printed=new) for new, _ in reprints(text))
         others += 1
-        recovered += any(_near(other, value, width) for value in values) or any(
-            meets(new, spread.low, spread.high) for new in prints
+        recovered += (
+            any(_near(other, value, width) for value in values)
+            or any(
+                meets(replace(claim, printed=new), spread.low, spread.high)
+                for new, _ in reprints(text)
+            )
+            or any(_near(neighbour, float(text), width) for neighbour in exchanged)
         )
     return others, recovered

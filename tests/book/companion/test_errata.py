@@ -82,11 +82,26 @@ def test_a_cut_number_a_percentage_of_the_other_and_an_assumption_are_found():
     assert assumed == (Change(ASSUMPTION, "so"),)
 
 
-def test_a_number_read_from_another_row_is_found():
+@pytest.fixture(scope="module")
+def rows():
+    """Return two claims that print different numbers of one column."""
     powers = [c for c in read_claims(5) if c.where == "Table 5.1" and c.unit == "1"]
-    first, other = powers[0], next(c for c in powers if c.printed != powers[0].printed)
+    return powers[0], next(claim for claim in powers if claim.printed != powers[0].printed)
+
+
+def test_a_number_read_from_another_row_is_found(rows):
+    first, other = rows
     recovering = found(other.printed, lambda value: value, value=f"@{first.id}").recovering
     assert Change(first.id, f"read as {other.id}") in recovering
+
+
+def test_prints_that_stand_in_each_others_place_are_found(rows):
+    first, other = rows
+    claim = replace(first, arguments={"value": other.printed})
+    inputs = resolved(claim.arguments)
+    spread = carried(lambda value: value, inputs)
+    recovering = search(claim, lambda value: value, inputs, spread).recovering
+    assert Change(PRINT, f"exchanged with {other.id}") in recovering
 
 
 def test_an_innocent_number_has_none():
@@ -212,6 +227,9 @@ def brings_out(entry, change: Change) -> bool:
     module, _, name = entry.function.rpartition(".")
     function = getattr(import_module(module), name)
     stated = resolved(claim.arguments)
+    if change.of == PRINT and change.does.startswith("exchanged with "):
+        other = printed(change.does.removeprefix("exchanged with "))
+        return spread.low <= other + other.half and spread.high >= other - other.half
     if change.of == PRINT:
         text = change.does[3 : change.does.index(",")]
         once = sum(a != b for a, b in zip(text, claim.printed, strict=True)) == 1
