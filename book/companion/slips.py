@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from book.companion.claims import Claim, read_claims
+from book.companion.claims import Claim, printed_text, read_claims
 from book.companion.printed import CORNERS_UP_TO, Printed, Spread, carried, decimals
 from book.companion.verdict import meets
 
@@ -133,8 +133,11 @@ def _text(number: Printed) -> str:
 def _leaves(raw: Any, value: Any, path: Path) -> Iterator[Input]:
     if isinstance(value, Printed):
         named = isinstance(raw, str) and raw.startswith("@")
-        text = raw if isinstance(raw, str) and not named else _text(value)
-        yield Input(raw[1:] if named else ".".join(map(str, path)), text, value, (path,))
+        if named:
+            yield Input(raw[1:], printed_text(raw[1:]), value, (path,))
+        else:
+            text = raw if isinstance(raw, str) else _text(value)
+            yield Input(".".join(map(str, path)), text, value, (path,))
     elif isinstance(value, Mapping):
         for name, inner in value.items():
             yield from _leaves(raw[name], inner, (*path, name))
