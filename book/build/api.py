@@ -6,6 +6,8 @@ from typing import Any, ClassVar, TypeVar, get_origin
 from docutils import nodes
 from docutils.statemachine import StringList
 from sphinx.application import Sphinx
+from sphinx.ext.napoleon import Config
+from sphinx.ext.napoleon.docstring import GoogleDocstring
 from sphinx.util.docutils import SphinxDirective
 
 from book.build.tracing import ROOT
@@ -43,6 +45,21 @@ class Api(SphinxDirective):
         return [*place.children]
 
 
+FORM = Config(
+    napoleon_use_param=False,  # several names may share a line
+    napoleon_use_rtype=False,
+    napoleon_custom_sections=[("Attributes", "params_style")],  # else each would stand twice
+)
+
+
+def read_sections(
+    _app: Sphinx, what: str, _name: str, _obj: object, _options: object, lines: list[str]
+) -> None:
+    """Turn the sections of a docstring into fields; a value's text is prose, colons and all."""
+    if what not in ("attribute", "data", "property"):
+        lines[:] = GoogleDocstring(lines, FORM, what=what).lines()  # type: ignore[arg-type]
+
+
 def skip(_app: Sphinx, what: str, name: str, found: object, _skip: bool, _: object) -> bool | None:
     """Leave out names of types, which say nothing that their module does not."""
     alias = found is Any or isinstance(found, TypeVar | UnionType) or get_origin(found) is not None
@@ -53,4 +70,5 @@ def setup(app: Sphinx) -> None:
     """Add the directive."""
     app.setup_extension("sphinx.ext.autodoc")
     app.add_directive("api", Api)
+    app.connect("autodoc-process-docstring", read_sections)
     app.connect("autodoc-skip-member", skip)
