@@ -13,6 +13,8 @@ from softgrip.errors import InvalidInputError
 
 LEAST_SAMPLES = 8
 START_DAMPING = (0.2, 0.7, 2.0)
+CONFIDENCE = 0.95
+"""Of the interval of an `Estimate`."""
 
 
 @dataclass(frozen=True)
@@ -129,7 +131,7 @@ def identify(
             f"{error[1]:.2g} from {t.size} samples over {duration:.3g} s",
         )
     scale = np.array([1.0, 1.0, y_scale / u_scale, y_scale])
-    margin = student.ppf(0.975, t.size - 4) * error * scale
+    margin = student.ppf((1 + CONFIDENCE) / 2, t.size - 4) * error * scale
     values = fit.x * scale
     w, z, k, offset = (
         Estimate(float(v), float(e), float(v - m), float(v + m))

@@ -8,7 +8,7 @@ from scipy.optimize import least_squares
 from scipy.stats import t as student
 
 from softgrip.arrays import Floats, check_positive
-from softgrip.dynamics.identify import LEAST_SAMPLES, Estimate
+from softgrip.dynamics.identify import CONFIDENCE, LEAST_SAMPLES, Estimate
 from softgrip.dynamics.ludwick import LudwickFinger, pressure_response
 from softgrip.errors import InvalidInputError
 
@@ -136,7 +136,7 @@ def fit_finger(
         )
     relative = np.zeros(4)
     relative[free] = error
-    margin = np.exp(student.ppf(0.975, t.size - fit.x.size) * relative)
+    margin = np.exp(student.ppf((1 + CONFIDENCE) / 2, t.size - fit.x.size) * relative)
     above = values(fit.x[:, None])[:, 0] - LEAST
     columns = (LEAST + above, above * relative, LEAST + above / margin, LEAST + above * margin)
     mass, damping, spring, power = (
