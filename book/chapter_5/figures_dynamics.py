@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from book.chapter_5 import step_protocols, step_sweep
-from book.chapter_5.numbers import printed_rms
+from book.chapter_5.numbers import BOUND, printed_rms
 from book.chapter_5.step_models import ANGLES, FINGERS, KINDS, compare, identified_at, rms_error
 from book.chapter_5.step_protocols import stated_stiffness
 from book.companion.exhibit import figure, table
@@ -34,8 +34,8 @@ from softgrip.units import DEG
 
 COLOURS = {"linear": (LINEAR, "-."), "ludwick": (LUDWICK, "--")}
 WORDS = {"linear": "linear (5.17)", "ludwick": "Ludwick (5.16)"}
-BOUND = 3.0
-"""deg: the upper end of what Section 5.4 puts down to the material itself."""
+STATED_LIMITS = (60, 80, 90)
+"""deg: up to which Sections 5.5, 6.3 and 7.1, and 3.4 call the linear model valid."""
 SHORT = ("at 60", "n of 5.2", "n of 5.1", "each", "at 30", "step", "stated K")
 """Names of `step_protocols.PROTOCOLS` that fit above a column."""
 LIMITS = (0.05, 0.10)
@@ -63,7 +63,7 @@ def _draw(design: str, logs: tuple[Path | str, ...]) -> Figure:
     half = len(paths) // 2
     tests, models = compare(design, (paths[:half], paths[half:]))
     drawn = Figure(figsize=(WIDTH, 5.6))
-    titles = ("(a) 60 deg, fitted to", "(b) 90 deg, predicted")
+    titles = (f"(a) {ANGLES[0]} deg, fitted to", f"(b) {ANGLES[1]} deg, predicted")
     for axes, test, title in zip(drawn.subplots(2, 1, sharex=True), tests, titles, strict=True):
         for k, run in enumerate(test.angles):
             label = "" if k else "runs"
@@ -110,7 +110,7 @@ def figure_5_c() -> Figure:
             errors = [getattr(point, name) for point in points]
             axes.plot(angles, errors, marks, color=colour, ms=4, label=label)
         axes.axhline(BOUND, color=GREY, ls=":")
-        for limit in (60, 80):
+        for limit in STATED_LIMITS:
             axes.axvline(limit, color=GREY, ls=":")
         axes.set(yscale="log", ylim=(0.1, 100), ylabel="RMS error (deg)")
         axes.set_title(f"{design}, {FINGERS[design].material}")

@@ -98,15 +98,28 @@ def figure_5_2() -> Figure:
     return drawn
 
 
+def fits(name: str) -> tuple[Floats, Floats]:
+    """Return strains up to which a curve is used, and the n that is fitted so."""
+    peak = facts()[name].peak_strain
+    used = np.minimum(LONGEST_STRAINS, peak)
+    return used, np.array([kept()[name, Fitting(longest_strain=x)] for x in LONGEST_STRAINS])
+
+
+def meets(name: str) -> Floats:
+    """Return strains up to which a fit gives the printed n, to the decimals of 1/n, rising."""
+    used, n = fits(name)
+    strain = np.linspace(used[0], used[-1], 1001)
+    printed = table_5_1()[name].fractional_power
+    found: Floats = strain[[comes_out(x, printed) for x in np.interp(strain, used, n)]]
+    return found
+
+
 @figure("5.A", Provenance.PUBLIC)
 def figure_5_a() -> Figure:
     """Draw n over the longest strain of the fit."""
     drawn, panels = sheet(8.2, 5, 2, sharex=True)
     for axes, material in zip(panels.flat, table_5_1().values(), strict=True):
-        peak = facts()[material.name].peak_strain
-        used = [min(limit, peak) for limit in LONGEST_STRAINS]
-        n = [kept()[material.name, Fitting(longest_strain=limit)] for limit in LONGEST_STRAINS]
-        axes.plot(used, n, "o-", color=LUDWICK, label="fitted")
+        axes.plot(*fits(material.name), "o-", color=LUDWICK, label="fitted")
         printed = 1 / round(1 / material.fractional_power, 2)
         m, across = 1 / printed, [0, 18]
         low, high = 1 / (m + 0.005), 1 / (m - 0.005)
