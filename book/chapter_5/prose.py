@@ -1,5 +1,161 @@
 """Computed numbers in the prose of Chapter 5."""
 
-from collections.abc import Callable
+from collections.abc import Iterable
+from itertools import chain
 
-WORDS: dict[str, Callable[[], str]] = {}
+from book.chapter_5 import figures_dynamics as dynamics
+from book.chapter_5.figures_materials import BEST, meets
+from book.chapter_5.logs import RUNS
+from book.chapter_5.numbers import BOUND, fitted_power, hundred_percent_modulus, linear_limit
+from book.chapter_5.step_models import ANGLES, FINGERS, Kind, identified_at, kept_test
+from book.chapter_5.step_models import step_test_error as error
+from book.chapter_5.step_protocols import SMALL, stated_stiffness
+from book.chapter_5.step_sweep import ANGLES as STEPS
+from book.chapter_5.step_sweep import KEPT
+from book.companion.claims import claim_of, printed
+from book.companion.printed import Spread
+from book.companion.verdict import judge
+from softgrip.actuator.cantilever import angle_limit
+from softgrip.dynamics.consistency import POWER
+from softgrip.dynamics.identify import CONFIDENCE
+from softgrip.materials.facts import facts
+from softgrip.materials.fitting import comes_out, grid
+from softgrip.materials.leave_out import RIVALS, leave_k_out
+from softgrip.materials.table import table_5_1
+from softgrip.reads import remembered
+from softgrip.simulator.parameters import SensorParameters
+from softgrip.units import DEG, MPa
+
+EARLY = ("Dragon Skin 20", "Dragon Skin 30", "SORTA-Clear 40")
+"""Materials whose printed n comes out where the fit stops at small strains."""
+LOW = ("Ecoflex 00-10", "Dragon Skin FX Pro")
+"""Materials whose tests give the smallest parts of the printed E."""
+LEAST, MOST = min(dynamics.POWERS), max(dynamics.POWERS)
+
+
+def _span(values: Iterable[float], form: str = ".0f") -> str:
+    found = [*values]
+    return f"{min(found):{form}} to {max(found):{form}}"
+
+
+def _pair(values: Iterable[float], form: str = ".0f") -> str:
+    first, second = values
+    return f"{first:{form}} and {second:{form}}"
+
+
+@remembered
+def _recomputed(claim: str) -> Spread:
+    """Return what comes of a claim, with what the rounding of its inputs leaves open."""
+    spread = judge(claim_of(5, claim)).spread
+    assert spread
+    return spread
+
+
+def _missed() -> list[float]:
+    """Return by how much the powers that do not come out are off, %, as the ledger fits them."""
+    fitted = {x: fitted_power(x, BEST.longest_strain, two_decimals=True) for x in table_5_1()}
+    pairs = [(n, table_5_1()[name].fractional_power) for name, n in fitted.items()]
+    return [100 * abs(n / true - 1) for n, true in pairs if not comes_out(n, true)]
+
+
+def _more() -> int:
+    """Count the materials whose true stress at a strain of one is above E and its rounding."""
+    moduli = {name: printed(claim_of(5, "table-5.1-e-{key}", name).id) for name in table_5_1()}
+    return sum(hundred_percent_modulus(x, "true") > E + E.half for x, E in moduli.items())
+
+
+def _errors() -> list[float]:
+    """Return the errors of n by Eq. (5.8) when each material is left out, %."""
+    return [100 * abs(one.error / one.printed) for one in leave_k_out(1).predictions]
+
+
+def _end(design: str, kind: Kind) -> float:
+    """Return where a model of the second test ends, less the mean of the runs, deg."""
+    test = kept_test(design, ANGLES[1])
+    fitted = identified_at(design, kind)
+    return float(fitted.response(test.time, test.pressure)[-1] - test.angle[-1]) / DEG
+
+
+def _largest(design: str) -> float:
+    test = kept_test(design, ANGLES[1])
+    return float(identified_at(design, "linear").response(test.time, test.pressure).max()) / DEG
+
+
+def _again() -> int:
+    """Return the step, deg, up to which the linear model identified anew keeps `BOUND`."""
+    beyond = min(point.angle for point in KEPT.read() if point.linear_again > BOUND)
+    return max(step for step in STEPS if step < beyond)
+
+
+def _limits(powers: Iterable[float], part: float) -> list[float]:
+    return [angle_limit(part, n) / DEG for n in powers]
+
+
+def _stiffer(kind: Kind) -> list[float]:
+    """Return how many times as stiff as identified the fingers are by the text."""
+    return [stated_stiffness(x, kind) / identified_at(x, kind).stiffness.value for x in FINGERS]
+
+
+WORDS = {
+    # The ten exponents: ways to fit, strains, %.
+    "ways": lambda: f"{len(grid())}",
+    "strain": lambda: f"{BEST.longest_strain:g}",
+    "strain_percent": lambda: f"{100 * BEST.longest_strain:.0f}",
+    "come_out": lambda: f"{len(table_5_1()) - len(_missed())}",
+    "missed": lambda: _span(_missed()),
+    "e_low": lambda: _span(
+        100 * hundred_percent_modulus(x) * MPa / table_5_1()[x].young_modulus for x in LOW
+    ),
+    "e_more": lambda: f"{_more()}",
+    "longest": lambda: f"{1 + max(one.peak_strain for one in facts().values()):.0f}",
+    "meets_late": lambda: _span(meets(name)[0] for name in table_5_1() if name not in EARLY),
+    "meets_early": lambda: _span(chain.from_iterable(map(meets, EARLY)), ".1f"),
+    # The formula: n, and errors in %.
+    "estimated_20": lambda: f"{_recomputed('table-5.2-estimated-dragon-skin-20').value:.3f}",
+    "estimated_fx": lambda: f"{_recomputed('table-5.2-estimated-dragon-skin-fx-pro').value:.3f}",
+    "least_fx": lambda: f"{_recomputed('table-5.2-estimated-dragon-skin-fx-pro').low:.3f}",
+    "error": lambda: f"{_recomputed('5.5-error-below-ten-percent').value:.1f}",
+    "left_out_rms": lambda: f"{leave_k_out(1).rms_error:.2f}",
+    "mean_rms": lambda: f"{leave_k_out(1, model=RIVALS['mean of the others']()).rms_error:.2f}",
+    "missed_more": lambda: f"{sum(e > printed('5.5-error-below-ten-percent') for e in _errors())}",
+    "worst": lambda: f"{max(_errors()):.0f}",
+    # The equations: factors, and deg for parts in %.
+    "power": lambda: f"{POWER}",
+    "limits": lambda: _pair(100 * part for part in dynamics.LIMITS),
+    "limit": lambda: f"{100 * dynamics.LIMITS[0]:.0f}",
+    "other_limit": lambda: f"{100 * dynamics.LIMITS[1]:.0f}",
+    "powers": lambda: _span((LEAST, MOST), "g"),
+    "most_power": lambda: f"{MOST:g}",
+    "hooke_to": lambda: f"{_limits([LEAST], dynamics.LIMITS[0])[0]:.0f}",
+    "hooke_to_other": lambda: f"{_limits([LEAST], dynamics.LIMITS[1])[0]:.0f}",
+    "most_to": lambda: _pair(_limits([MOST], part)[0] for part in dynamics.LIMITS),
+    "all_to": lambda: _span(_limits((LEAST, MOST), dynamics.LIMITS[0])),
+    "all_to_other": lambda: _span(_limits((LEAST, MOST), dynamics.LIMITS[1])),
+    "ludwick_stiffer": lambda: _pair(_stiffer("ludwick"), ".1f"),
+    "hooke_stiffer": lambda: _pair(_stiffer("linear")),
+    # The step tests: deg, and pressures as multiples.
+    "first": lambda: f"{ANGLES[0]}",
+    "second": lambda: f"{ANGLES[1]}",
+    "small": lambda: f"{SMALL}",
+    "confidence": lambda: f"{100 * CONFIDENCE:g}",
+    "linear_climbs": lambda: f"{_largest('Design 1'):.0f}",
+    "ludwick_above": lambda: f"{_end('Design 1', 'ludwick'):.0f}",
+    "ludwick_below": lambda: f"{-_end('Design 2', 'ludwick'):.0f}",
+    "linear_above": lambda: f"{_end('Design 2', 'linear'):.0f}",
+    "linear_misses": lambda: _pair(error(x, "linear", ANGLES[1]) for x in FINGERS),
+    "more_pressure": lambda: f"{(ANGLES[1] / ANGLES[0]) ** POWER:.1f}",
+    "linear_answers": lambda: f"{ANGLES[0] * (ANGLES[1] / ANGLES[0]) ** POWER:.0f}",
+    "noise": lambda: f"{SensorParameters().angle_noise / DEG:g}",
+    "mean_noise": lambda: f"{SensorParameters().angle_noise / DEG / RUNS**0.5:.2f}",
+    "fit_allowed": lambda: f"{_recomputed('5.3-average-fit-allowed').value:.1f}",
+    "percent": lambda: f"{_recomputed('5.4-percent-design-1--90-deg--linear').value:.1f}",
+    # How far a straight line goes: deg.
+    "bound": lambda: f"{BOUND:g}",
+    "stated_limits": lambda: "{}, {} and {}".format(*dynamics.STATED_LIMITS),
+    "ranges": lambda: _pair(map(linear_limit, FINGERS)),
+    "again": lambda: f"{_again()}",
+    # Figures that the text refers to by another's number.
+    "correlations_in": lambda: f"{_recomputed('5.2-correlations-shown-in').value:g}",
+    "bending_in": lambda: f"{_recomputed('5.3-bending-shown-in').value:g}",
+    "setup_in": lambda: f"{_recomputed('5.4-setup-shown-in').value:g}",
+}

@@ -1,0 +1,85 @@
+"""What captions and page of Chapter 5 say in words, against what is drawn."""
+
+import numpy as np
+import pytest
+from scipy.stats import spearmanr
+
+from book.chapter_5.figures_dynamics import STATED_LIMITS
+from book.chapter_5.figures_materials import fits, meets
+from book.chapter_5.numbers import BOUND
+from book.chapter_5.prose import EARLY, LOW
+from book.chapter_5.step_models import ANGLES, FINGERS
+from book.chapter_5.step_sweep import KEPT
+from book.companion.claims import claim_of, printed
+from book.companion.verdict import judge
+from softgrip.materials import ludwick
+from softgrip.materials.facts import facts
+from softgrip.materials.table import fractional_powers, properties, table_5_1
+from softgrip.units import MPa
+
+
+def test_stated_limits_are_those_that_are_printed():
+    ids = ("5.5-linear-range-design-1", "7.1-linear-range", "3.4-linear-up-to")
+    assert [*map(printed, ids)] == [*STATED_LIMITS]
+
+
+def test_bound_is_the_one_that_is_printed():
+    assert printed("5.4-rms-range-max") == BOUND
+
+
+@pytest.mark.parametrize("name", table_5_1())
+def test_printed_law_ends_where_the_picture_is_said_to_show_it(name):
+    known, material = facts()[name], table_5_1()[name]
+    law = ludwick.stress(known.peak_strain, material.young_modulus, material.fractional_power)
+    ratio = law / (known.peak_stress * (1 + known.peak_strain))
+    if "Mold Star" in name:
+        assert abs(ratio - 1) < 0.03  # about the width of a line
+    elif "Ecoflex" in name or "FX" in name:
+        assert ratio < 0.4
+    else:
+        assert ratio > 1.15
+
+
+@pytest.mark.parametrize("name", table_5_1())
+def test_engineering_stress_at_a_strain_of_one_is_below_the_printed_modulus(name):
+    modulus = printed(claim_of(5, "table-5.1-e-{key}", name).id)
+    assert facts()[name].hundred_percent_modulus / MPa < modulus - modulus.half
+
+
+@pytest.mark.parametrize("what", ["moment", "spring", "force"])
+def test_what_should_degrade_is_twice_as_large(what):
+    assert judge(claim_of(5, "5.3-degrades-{key}", what)).spread.value == pytest.approx(2)
+
+
+def test_two_materials_have_the_smallest_parts_of_the_printed_modulus():
+    parts = {
+        x: facts()[x].hundred_percent_modulus / m.young_modulus for x, m in table_5_1().items()
+    }
+    assert set(sorted(parts, key=parts.get)[:2]) == set(LOW)
+
+
+def test_three_materials_alone_meet_the_printed_power_at_small_strains():
+    early = [strain for name in EARLY for strain in meets(name)]
+    late = [strain for name in table_5_1() if name not in EARLY for strain in meets(name)]
+    assert min(early) > 2
+    assert max(early) < 3.1
+    assert min(late) > 4.5
+    assert all(len(meets(name)) for name in table_5_1())
+
+
+def test_what_meets_lies_on_the_drawn_curve():
+    used, n = fits("Ecoflex 00-30")
+    assert np.interp(meets("Ecoflex 00-30"), used, n) == pytest.approx(1 / 0.62, abs=0.014)
+
+
+def test_power_rises_most_clearly_with_strength_and_least_with_viscosity():
+    materials = [*table_5_1().values()]
+    E, MV, TS = (spearmanr(x, fractional_powers(materials))[0] for x in properties(materials).T)
+    assert TS > 0.9
+    assert TS > E > MV > 0.5
+
+
+@pytest.mark.parametrize("design", FINGERS)
+def test_linear_model_is_above_the_bound_on_both_sides_of_where_it_was_identified(design):
+    points = [point for point in KEPT.read() if point.design == design]
+    assert all((point.linear > BOUND) == (point.angle != ANGLES[0]) for point in points)
