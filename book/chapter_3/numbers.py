@@ -13,6 +13,8 @@ from book.companion.verdict import simulated
 from softgrip.actuator.bending import Finger
 from softgrip.actuator.certificate import certified_design
 from softgrip.actuator.design import (
+    SCRIPT_MASS,
+    SCRIPT_POWER,
     Bounds,
     Combined,
     DesignProblem,
@@ -133,8 +135,8 @@ def _number(row: str) -> int:
 def optimum(
     name: str,
     row: str = "",
-    power: float = 1.0,
-    mass: float = 0.36,
+    power: float = SCRIPT_POWER,
+    mass: float = SCRIPT_MASS,
     combined: Combined = "product",
     bottom_limit: float = 4.0,
     height_limit: float = 24.0,

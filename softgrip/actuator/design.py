@@ -16,6 +16,12 @@ Range = tuple[float, float]
 Combined = Literal["sum", "product"]
 DIMENSIONS = ("top", "bottom", "width", "wall")
 
+SCRIPT_POWER, SCRIPT_MASS = 1.0, 0.36
+"""n, and M as a number of kilograms, of the design script that the author published.
+
+The dissertation states no n, and of M only the "N" of Table 3.3.
+"""
+
 
 class InfeasibleDesignError(SoftgripError, ValueError):
     """No section fulfils all constraints; names the one that cannot be met, and what could be."""
@@ -59,19 +65,24 @@ class Bounds:
                 )
 
 
+SCRIPT_BOUNDS = Bounds(bottom=(2 * MM, 4 * MM), height=(18 * MM, 24 * MM))
+"""Those of the design script, where b and h end lower than Section 3.3 has them."""
+
+
 @dataclass(frozen=True)
 class FrequencyBand:
     """A band of natural frequencies, as those of Table 3.2.
 
     Attributes:
         low, high: omega_n1 and omega_n2, rad/s, 0 <= low <= high.
-        least_mass, largest_mass: M_1 and M_2, kg. Their values are not printed.
+        least_mass, largest_mass: M_1 and M_2, kg. Their values are not printed; the defaults are
+            those of the author's script.
     """
 
     low: float
     high: float
-    least_mass: float = 0.35
-    largest_mass: float = 0.35
+    least_mass: float = SCRIPT_MASS
+    largest_mass: float = SCRIPT_MASS
 
     def __post_init__(self) -> None:
         check_positive(least_mass=self.least_mass, largest_mass=self.largest_mass, high=self.high)
@@ -88,7 +99,7 @@ class DesignProblem:
     Attributes:
         pressure: P, Pa, > 0: held, as ``P' = 0`` says. Its value is not printed.
         young_modulus, fractional_power, length: Of the material and the finger: Pa, dimensionless,
-            m.
+            m. The default n is that of the author's script.
         torque_scale, angle_scale: What T and theta are divided by, N m and rad (Section 3.3).
         bounds: Of the dimensions.
         band: Of the natural frequency, or None.
@@ -97,7 +108,7 @@ class DesignProblem:
 
     pressure: float = 0.15 * MPa
     young_modulus: float = 0.34 * MPa
-    fractional_power: float = 1.0
+    fractional_power: float = SCRIPT_POWER
     length: float = 94 * MM
     torque_scale: float = 0.4
     angle_scale: float = 1.4 * pi

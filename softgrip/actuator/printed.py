@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from softgrip.actuator.design import Bounds, DesignProblem, FrequencyBand
+from softgrip.actuator.design import SCRIPT_BOUNDS, DesignProblem, FrequencyBand
 from softgrip.actuator.section import Section
 from softgrip.errors import UnknownNameError
 from softgrip.provenance import data_rows
@@ -36,24 +36,9 @@ class BandRow:
     measured: float
     section: Section
 
-    def problem(
-        self,
-        *,
-        fractional_power: float = FREQUENCY_POWER,
-        mass: float = FREQUENCY_MASS,
-        bottom_limit: float = 4 * MM,
-        top_limit: float = 20 * MM,
-    ) -> DesignProblem:
-        """Return the design problem for the row.
-
-        The upper bounds of a and b are where the printed optimum lies: 20 mm is named as a limit
-        in Section 3.5, 4 mm nowhere.
-        """
-        return DesignProblem(
-            fractional_power=fractional_power,
-            bounds=Bounds(top=(14 * MM, top_limit), bottom=(2 * MM, bottom_limit)),
-            band=FrequencyBand(self.low, self.high, mass, mass),
-        )
+    def problem(self) -> DesignProblem:
+        """Return the design problem for the row, with the inputs of the author's script."""
+        return DesignProblem(bounds=SCRIPT_BOUNDS, band=FrequencyBand(self.low, self.high))
 
 
 @dataclass(frozen=True)

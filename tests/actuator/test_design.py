@@ -45,8 +45,8 @@ def problems(draw):
     if draw(st.booleans()):
         # A band within what the box allows, by the frequency of two of its sections.
         low, high = sorted(draw(st.floats(0.05, 0.95)) for _ in range(2))
-        slow = natural_frequency(problem.finger(Section(0.014, 0.003, 0.012, 0.0015)), 0.35)
-        fast = natural_frequency(problem.finger(Section(0.020, 0.004, 0.03, 0.0015)), 0.35)
+        slow = natural_frequency(problem.finger(Section(0.014, 0.003, 0.012, 0.0015)), 0.36)
+        fast = natural_frequency(problem.finger(Section(0.020, 0.004, 0.03, 0.0015)), 0.36)
         band = FrequencyBand(*(slow + x * (fast - slow) for x in (low, high)))
         problem = replace(problem, band=band)
     return problem
