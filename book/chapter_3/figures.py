@@ -4,11 +4,13 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
 
 from book.chapter_3.finger_drawing import draw_bent, draw_section
 from book.chapter_3.torque_and_bending import (
     BUCKLING_TORQUE,
     DESIGNS,
+    LENGTH,
     blocked_torque,
     settled_angles,
 )
@@ -26,7 +28,7 @@ from book.companion.style import (
     sheet,
 )
 from softgrip.actuator.bending import Finger, free_bending
-from softgrip.actuator.design import DesignProblem, objective
+from softgrip.actuator.design import SCRIPT_MASS, SCRIPT_POWER, DesignProblem, objective
 from softgrip.actuator.fem_results import BEAM, CHAMBERS, FemResult, read
 from softgrip.actuator.frequency import natural_frequency
 from softgrip.actuator.optimize import optimal_design
@@ -37,6 +39,7 @@ from softgrip.actuator.printed import (
     SUM_POWER,
     WEIGHT_POWER,
     table_3_1,
+    table_3_2,
 )
 from softgrip.actuator.section import Section, torque
 from softgrip.provenance import Provenance
@@ -46,7 +49,12 @@ from softgrip.units import DEG, MM, MPa
 DASHES = ("-", "--", "-.", ":", "--", "-.", ":")
 COLOURS = (BLUE, SKY, GREEN, ORANGE, VERMILION, PURPLE, GREY)
 SHOWN_FLOORS = (0.0, 6 * MM, 12 * MM)
-FX_PRO = 0.26 * MPa
+DRAGON_SKIN, FX_PRO = 0.34 * MPa, 0.26 * MPa
+PUSHED_TO, BENT_TO = 0.25 * MPa, 0.15 * MPa
+"""The largest pressures of the tests of torque and of bending."""
+SIDE_VIEWS = 6
+STATED = DesignProblem(fractional_power=SCRIPT_POWER)
+"""The problem of Section 3.3 without a band, with the n of the author's script."""
 DOTS: dict[str, Any] = {"ls": "none", "ms": 4.5}
 LOOK: dict[str, dict[str, Any]] = {
     "Design 1(E1)": {"marker": "o", "color": MEASURED, **DOTS},
@@ -59,6 +67,17 @@ LOOK: dict[str, dict[str, Any]] = {
 def optimum() -> Section:
     """Return the best section of Table 3.1."""
     return table_3_1()["Opt. parameters"]
+
+
+def bent(section: Section, pressure: ArrayLike = BENT_TO, *, modulus: float = DRAGON_SKIN) -> Any:
+    """Return the angle of Eq. (3.10), deg, with the n that gives the printed one."""
+    finger = Finger(section, young_modulus=modulus, fractional_power=ANGLE_POWER)
+    return free_bending(finger, pressure) / DEG
+
+
+def bent_on_rig(design: str, pressure: ArrayLike = (BENT_TO,)) -> Any:
+    """Return the angle of a design on the simulated rig, deg: the mean of its runs."""
+    return settled_angles(DESIGNS[design](), pressure).mean(axis=0) / DEG
 
 
 @figure("3.3", Provenance.PRINTED)
@@ -89,7 +108,7 @@ def figure_3_a() -> Figure:
     fingers = [Finger(optimum(), fractional_power=float(n)) for n in powers]
     problems = [DesignProblem(fractional_power=float(n)) for n in powers]
     frequencies = [natural_frequency(f, FREQUENCY_MASS) / 2.62 for f in fingers]
-    angles = [free_bending(f, 0.15 * MPa) / (290 * DEG) for f in fingers]
+    angles = [free_bending(f, BENT_TO) / (290 * DEG) for f in fingers]
     sums = [objective(p, optimum()) / 2.36 for p in problems]
     curves = (
         ("frequency, 2.62 rad/s, M in kg", frequencies, BLUE, "-", FREQUENCY_POWER),
@@ -112,21 +131,21 @@ def figure_3_a() -> Figure:
 def figure_3_b() -> Figure:
     """Draw the objective over the heights above and below the neutral surface."""
     drawn, axes = sheet(3.6)
-    problem = DesignProblem(fractional_power=FREQUENCY_POWER)
-    bounds = problem.bounds
+    bounds = STATED.bounds
     a, b = np.meshgrid(np.linspace(*bounds.top, 61), np.linspace(*bounds.bottom, 61))
     sections = Section(a, b, bounds.width[1], bounds.wall[0])
-    values = objective(problem, sections)
-    frequency = natural_frequency(problem.finger(sections), FREQUENCY_MASS)
+    values = objective(STATED, sections)
+    frequency = natural_frequency(STATED.finger(sections), SCRIPT_MASS)
     allowed = a + b <= bounds.height[1] * (1 + 1e-9)
     filled = axes.contourf(a / MM, b / MM, np.where(allowed, values, np.nan), 12, cmap="cividis")
     drawn.colorbar(filled, label="sum of Eq. (3.20)")
     white: dict[str, Any] = {"colors": "white", "linestyles": "--", "linewidths": 1}
-    lines = axes.contour(a / MM, b / MM, frequency, [1.8, 2.4, 2.6], **white)
+    ends = sorted(row.high for row in table_3_2()[1:])
+    lines = axes.contour(a / MM, b / MM, frequency, ends, **white)
     axes.clabel(lines, fontsize=8)
     edge = bounds.height[1] / MM
     axes.plot([edge - 5, edge - 2], [5, 2], color="black", lw=1.4, label="largest height")
-    best = optimal_design(problem).section
+    best = optimal_design(STATED).section
     star: dict[str, Any] = {
         "color": VERMILION,
         "ms": 12,
@@ -146,16 +165,18 @@ def figure_3_b() -> Figure:
 def figure_3_9() -> Figure:
     """Draw blocked torque over pressure: model and simulated rig."""
     drawn, axes = sheet(3.4)
-    pressure = np.linspace(0, 0.25, 51) * MPa
+    pressure = np.linspace(0, PUSHED_TO, 51)
     axes.plot(
         pressure / MPa, torque(optimum(), pressure), color=BLUE, label="Eq. (3.4), (E1) and (E2)"
     )
-    tested = np.linspace(0, 0.25, 11) * MPa
+    tested = np.linspace(0, PUSHED_TO, 11)
     for name, rig in DESIGNS.items():
         buckling = BUCKLING_TORQUE.get(name, np.inf)
         found = blocked_torque(rig().finger, tested, buckling_torque=buckling)
         axes.plot(tested / MPa, found, **LOOK[name], label=f"{name}, simulated")
-    axes.plot([0.25], [0.359], "o", ms=12, mfc="none", color=PRINTED, label="printed, measured")
+    axes.plot(
+        [PUSHED_TO / MPa], [0.359], "o", ms=12, mfc="none", color=PRINTED, label="printed, measured"
+    )
     axes.set(xlabel="pressure (MPa)", ylabel="torque (N m)", ylim=(0, 0.56), xlim=(0, 0.26))
     axes.legend(loc="upper left")
     return drawn
@@ -165,18 +186,17 @@ def figure_3_9() -> Figure:
 def figure_3_10() -> Figure:
     """Draw free bending over pressure: model and simulated rig."""
     drawn, axes = sheet(3.8)
-    pressure = np.linspace(0, 0.15, 61) * MPa
-    rubbers = (("(E1)", 0.34 * MPa, 2.5, BLUE), ("(E2)", FX_PRO, 1.538, ORANGE))
+    pressure = np.linspace(0, BENT_TO, 61)
+    rubbers = (("(E1)", DRAGON_SKIN, 2.5, BLUE), ("(E2)", FX_PRO, 1.538, ORANGE))
     for name, modulus, tabled, colour in rubbers:
         for n, dash in ((ANGLE_POWER, "-"), (tabled, ":")):
             finger = Finger(optimum(), young_modulus=modulus, fractional_power=n)
             angle, label = free_bending(finger, pressure) / DEG, f"Eq. (3.10) {name}, n = {n:g}"
             axes.plot(pressure / MPa, angle, color=colour, ls=dash, label=label)
-    tested = np.linspace(0, 0.15, 11) * MPa
+    tested = np.linspace(0, BENT_TO, 11)
     for name, printed in zip(DESIGNS, (206, 201, 232), strict=True):
-        angles = settled_angles(DESIGNS[name](), tested).mean(axis=0)
-        axes.plot(tested / MPa, angles / DEG, **LOOK[name], label=f"{name}, simulated")
-        axes.plot([0.15], [printed], "o", ms=12, mfc="none", color=PRINTED)
+        axes.plot(tested / MPa, bent_on_rig(name, tested), **LOOK[name], label=f"{name}, simulated")
+        axes.plot([BENT_TO / MPa], [printed], "o", ms=12, mfc="none", color=PRINTED)
     axes.set(xlabel="pressure (MPa)", ylabel="angle (deg)", ylim=(0, 500), xlim=(0, 0.157))
     axes.legend(loc="upper left", fontsize=8.5)
     return drawn
@@ -186,12 +206,11 @@ def figure_3_10() -> Figure:
 def figure_3_11() -> Figure:
     """Draw the bent finger at each pressure."""
     drawn, panels = sheet(4.2, 2, 3, sharex=True, sharey=True)
-    finger = Finger(optimum(), fractional_power=ANGLE_POWER)
-    for axes, pressure in zip(panels.flat, np.linspace(0, 0.15, 6) * MPa, strict=True):
-        angle = float(free_bending(finger, pressure))
+    for axes, pressure in zip(panels.flat, np.linspace(0, BENT_TO, SIDE_VIEWS), strict=True):
+        angle = float(bent(optimum(), pressure))
         # The rubber that stretches lies above the neutral surface, which keeps its length.
-        draw_bent(axes, optimum(), finger.length, angle, BLUE, f"{pressure / MPa:.2f} MPa")
-        axes.set_title(f"{pressure / MPa:.2f} MPa\n{angle / DEG:.0f} deg", fontsize=9.5)
+        draw_bent(axes, optimum(), LENGTH, angle * DEG, BLUE, f"{pressure / MPa:.2f} MPa")
+        axes.set_title(f"{pressure / MPa:.2f} MPa\n{angle:.0f} deg", fontsize=9.5)
         axes.set_aspect("equal")
         axes.set(xlim=(-50, 105), ylim=(-95, 35))
     for axes in panels[-1]:
@@ -201,7 +220,7 @@ def figure_3_11() -> Figure:
     return drawn
 
 
-def _judges() -> list[tuple[str, FemResult, str]]:
+def judges() -> list[tuple[str, FemResult, str]]:
     """Return the finite-element fingers that are drawn: label, result and dash."""
     beam = next(r for r in read("table_3_1") if r.chambers == BEAM)
     floors = [r for r in read("groove_floor") if r.groove_floor in SHOWN_FLOORS]
@@ -231,17 +250,19 @@ def _judged(drawn: Figure, axes: Any, value: str) -> None:
 def figure_3_5() -> Figure:
     """Draw torque over pressure: variances, finite elements, simulated test."""
     drawn, (upper, lower) = sheet(6.4, 2, 1, sharex=True, sharey=True)
-    pressure = np.linspace(0, 0.25, 26) * MPa
+    pressure = np.linspace(0, PUSHED_TO, 26)
     _variants(upper, pressure, lambda section: torque(section, pressure))
     upper.legend(loc="upper left", fontsize=8.5)
     upper.set(ylabel="torque (N m)", title="(a) model", ylim=(0, 0.56))
     lower.plot(pressure / MPa, torque(optimum(), pressure), color=BLUE, label="Eq. (3.4)")
-    for label, found, dash in _judges():
+    for label, found, dash in judges():
         lower.plot(pressure / MPa, found.torque * pressure, color=GREEN, ls=dash, label=label)
-    tested = np.linspace(0, 0.25, 11) * MPa
+    tested = np.linspace(0, PUSHED_TO, 11)
     torques = blocked_torque(design_1().finger, tested)
     lower.plot(tested / MPa, torques, "o", color=MEASURED, ms=4, label="simulated test")
-    lower.plot([0.25], [0.359], "o", ms=11, mfc="none", color=PRINTED, label="printed, measured")
+    lower.plot(
+        [PUSHED_TO / MPa], [0.359], "o", ms=11, mfc="none", color=PRINTED, label="printed, measured"
+    )
     _judged(drawn, lower, "torque (N m)")
     return drawn
 
@@ -250,21 +271,26 @@ def figure_3_5() -> Figure:
 def figure_3_6() -> Figure:
     """Draw bending angle over pressure: variances, finite elements, simulated test."""
     drawn, (upper, lower) = sheet(6.4, 2, 1, sharex=True, sharey=True)
-    pressure = np.linspace(0, 0.15, 61) * MPa
-
-    def bent(section: Any) -> Any:
-        return free_bending(Finger(section, fractional_power=ANGLE_POWER), pressure) / DEG
-
-    _variants(upper, pressure, bent)
+    pressure = np.linspace(0, BENT_TO, 61)
+    _variants(upper, pressure, lambda section: bent(section, pressure))
     upper.legend(loc="upper left", fontsize=8.5)
     upper.set(ylabel="angle (deg)", title="(a) model", ylim=(0, 320))
-    lower.plot(pressure / MPa, bent(optimum()), color=BLUE, label="Eq. (3.10), n = 1.56")
-    for label, found, dash in _judges():
+    eq_3_10 = f"Eq. (3.10), n = {ANGLE_POWER:g}"
+    lower.plot(pressure / MPa, bent(optimum(), pressure), color=BLUE, label=eq_3_10)
+    for label, found, dash in judges():
         lower.plot(pressure / MPa, found.angle * pressure / DEG, color=GREEN, ls=dash, label=label)
-    tested = np.linspace(0, 0.15, 11) * MPa
-    angles = settled_angles(design_1(), tested).mean(axis=0)
-    lower.plot(tested / MPa, angles / DEG, "o", color=MEASURED, ms=4, label="simulated test")
-    lower.plot([0.15], [206], "o", ms=11, mfc="none", color=PRINTED, label="printed, measured")
+    tested = np.linspace(0, BENT_TO, 11)
+    lower.plot(
+        tested / MPa,
+        bent_on_rig("Design 1(E1)", tested),
+        "o",
+        color=MEASURED,
+        ms=4,
+        label="simulated test",
+    )
+    lower.plot(
+        [BENT_TO / MPa], [206], "o", ms=11, mfc="none", color=PRINTED, label="printed, measured"
+    )
     _judged(drawn, lower, "angle (deg)")
     return drawn
 
@@ -287,7 +313,7 @@ def figure_3_e() -> Figure:
     rows = list(read("groove_floor"))
     floors = [r.groove_floor / MM for r in rows]
     push = torque(optimum(), 1.0)
-    full = 206 * DEG / (0.15 * MPa)
+    full = 206 * DEG / BENT_TO
     lower.plot(floors, [r.torque / push for r in rows], "-o", color=BLUE, ms=4, label="torque")
     lower.plot(floors, [r.angle / full for r in rows], "--s", color=ORANGE, ms=4, label="angle")
     lower.set(xlabel="floor of the groove above the neutral surface (mm)")

@@ -50,7 +50,17 @@ FASTER = Weights(p=30_000.0, q=(1.0, 0.03, 0.0))
 """Weights with which the linear loop settles within 2 % in 0.8 s."""
 PRINTED_TIME = 0.8
 BANDS = {"2 %": 0.02, "5 %": 0.05, "10 %": 0.1}
+CRITERIA = (0.02, 0.05, 5 * DEG / STEP)
+"""Of Table 3.C, as parts of the step."""
 RUNS = 100
+SHARE = (5, 95)
+"""Of the runs, percent: between which a table says where they lie."""
+STEPS = np.arange(10, 91, 10)
+"""Of Figure 3.D, deg."""
+RATE = Weights().q[1]
+"""The printed weight on the rate."""
+P = np.logspace(0, 6, 37)
+"""The p of Figure 3.C."""
 
 
 @figure("3.12", Provenance.SIMULATED)
@@ -86,20 +96,19 @@ def figure_3_12(logs: tuple[Path | str, ...] = ()) -> Figure:
 def figure_3_c() -> Figure:
     """Draw poles and settling times over p."""
     drawn, (poles_axes, time_axes) = sheet(5.2, 2, 1, sharex=True)
-    p = np.logspace(0, 6, 37)
-    poles = np.array([closed_loop_poles(FINGER, Weights(p=x)) for x in p]).real
-    poles_axes.semilogx(p, poles[:, 0], color=BLUE, label="real pole")
-    poles_axes.semilogx(p, poles[:, 1], color=GREY, ls="-.", label="pair")
+    poles = np.array([closed_loop_poles(FINGER, Weights(p=x)) for x in P]).real
+    poles_axes.semilogx(P, poles[:, 0], color=BLUE, label="real pole")
+    poles_axes.semilogx(P, poles[:, 1], color=GREY, ls="-.", label="pair")
     poles_axes.axhline(
         certificate(FINGER, Weights()).pole_bound, color=VERMILION, ls="--", lw=1, label="bound"
     )
     poles_axes.set(ylabel="real part (rad/s)", ylim=(-6, 0.2))
     poles_axes.legend(loc="lower left")
-    as_printed = _settling_over_p(0.3).T
+    as_printed = settling_over_p(RATE).T
     for name, settled, colour in zip(BANDS, as_printed, (BLUE, LINEAR, GREEN), strict=True):
-        time_axes.loglog(p, settled, color=colour, label=f"within {name}")
+        time_axes.loglog(P, settled, color=colour, label=f"within {name}")
     time_axes.loglog(
-        p, _settling_over_p(0.03)[:, 0], color=BLUE, ls="--", label="2 %, a tenth of q2"
+        P, settling_over_p(RATE / 10)[:, 0], color=BLUE, ls="--", label="2 %, a tenth of q2"
     )
     time_axes.axhline(PRINTED_TIME, color=PRINTED, ls=":")
     for axes in (poles_axes, time_axes):
@@ -111,9 +120,10 @@ def figure_3_c() -> Figure:
 
 
 @remembered
-def _settling_over_p(q2: float) -> Any:
+def settling_over_p(q2: float) -> Any:
+    """Return the settling times of the linear loop within each of `BANDS`, s, row by row of `P`."""
     rows = []
-    for p in np.logspace(0, 6, 37):
+    for p in P:
         time, angle = step_response(FINGER, Weights(p=float(p), q=(1.0, q2, 0.0)))
         rows.append([settling_time(time, angle, final=1.0, band=b) for b in BANDS.values()])
     return np.array(rows)
@@ -123,36 +133,43 @@ def _settling_over_p(q2: float) -> Any:
 def figure_3_d() -> Figure:
     """Draw the bound on any controller, and the regulator, over the step."""
     drawn, axes = sheet(3.2)
-    steps = np.arange(10, 91, 10)
     model = identified_model()
-    system = full_state_space(model.finger, model.pump_gain)
     for (name, band), colour in zip(BANDS.items(), (BLUE, LINEAR, GREEN), strict=True):
-        least = [
-            minimum_settling_time(system, d * DEG, SPEED_LIMIT, band=band * d * DEG) for d in steps
-        ]
-        axes.plot(steps, least, "o-", color=colour, label=f"within {name}")
-    reached = best_within_limit(model.finger, model.pump_gain, steps * DEG, 0.02)
-    axes.plot(steps, [best.time for best in reached], color=BLUE, ls="--", label="LQR, 2 %")
+        least = [least_time(step, band) for step in STEPS]
+        axes.plot(STEPS, least, "o-", color=colour, label=f"within {name}")
+    reached = best_within_limit(model.finger, model.pump_gain, STEPS * DEG, 0.02)
+    axes.plot(STEPS, [best.time for best in reached], color=BLUE, ls="--", label="LQR, 2 %")
     axes.axhline(PRINTED_TIME, color=PRINTED, ls=":")
     axes.set(xlabel="step (deg)", ylabel="settling time (s)", xlim=(0, 95), ylim=(0, None))
     axes.legend(loc="lower right")
     return drawn
 
 
+@remembered
+def least_time(step: float, band: float) -> float:
+    """Return the least settling time of any controller on the identified finger, s.
+
+    Args:
+        step: deg.
+        band: Share of the step.
+    """
+    model = identified_model()
+    system, change = full_state_space(model.finger, model.pump_gain), step * DEG
+    return minimum_settling_time(system, change, SPEED_LIMIT, band=band * change)
+
+
 @table("3.C", Provenance.SIMULATED)
 def table_3_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
     """Tabulate settling times under each criterion; ``logs`` gives two of another rig."""
-    bands = (0.02, 0.05, 5 * DEG / STEP)
     model = identified_model()
-    full = full_state_space(model.finger, model.pump_gain)
-    limits = [settling_at_the_bound(Weights(), band) for band in bands]
-    floors = [settling_floor(FINGER, Weights(), band) for band in bands]
-    least = [minimum_settling_time(full, STEP, SPEED_LIMIT, band=band * STEP) for band in bands]
+    limits = [settling_at_the_bound(Weights(), band) for band in CRITERIA]
+    floors = [settling_floor(FINGER, Weights(), band) for band in CRITERIA]
+    least = [least_time(STEP / DEG, band) for band in CRITERIA]
     rows = [
-        ("printed weights", "linear", *_linear(Weights(), bands)),
+        ("printed weights", "linear", *_linear(Weights())),
         ("p to infinity", "linear", *(f"{x:.2f}" for x in limits), "0"),
         ("any p, proved", "linear", *(f"above {x:.2f}" for x in floors), "0"),
-        ("p = 3e4, q2 = 0.03", "linear", *_linear(FASTER, bands)),
+        ("p = 3e4, q2 = 0.03", "linear", *_linear(FASTER)),
         ("any controller", "5 rev/s", *(f"{x:.2f}" for x in least), "0"),
     ]
     paths = logs or tuple(kept_log(name) for name in LOGS)
@@ -171,8 +188,8 @@ def table_3_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["design", "run on", "2 %", "5 %", "5 deg", "error (deg)"])
 
 
-def _linear(weights: Weights, bands: tuple[float, ...]) -> list[str]:
-    return [*(f"{linear_settling_time(FINGER, weights, band):.2f}" for band in bands), "0"]
+def _linear(weights: Weights) -> list[str]:
+    return [*(f"{linear_settling_time(FINGER, weights, band):.2f}" for band in CRITERIA), "0"]
 
 
 def _runs(design: str) -> StepResponse:
@@ -193,7 +210,7 @@ def _spread(values: Any, form: str) -> str:
     # Nearest: between a time and never there is nothing to interpolate.
     low, middle, high = (
         form.format(x) if np.isfinite(x) else "never"
-        for x in np.percentile(values, [5, 50, 95], method="nearest")
+        for x in np.percentile(values, [SHARE[0], 50, SHARE[1]], method="nearest")
     )
     return middle if np.size(values) == 1 else f"{middle} ({low} to {high})"
 
@@ -201,14 +218,23 @@ def _spread(values: Any, form: str) -> str:
 @table("3.D", Provenance.SIMULATED)
 def table_3_d() -> pd.DataFrame:
     """Tabulate the largest step that can settle in the printed time."""
+    columns = {"identified": False, "as printed": True}
+    return pd.DataFrame(
+        {"within": name, **{words: f"{settled_step(band, as_printed=printed):.1f}"
+                            for words, printed in columns.items()}}
+        for name, band in BANDS.items()
+    )  # fmt: skip
+
+
+@remembered
+def settled_step(band: float, *, as_printed: bool = False) -> float:
+    """Return the largest step that any controller settles in the printed time, deg.
+
+    Args:
+        band: Share of the step.
+        as_printed: Whether the finger has the printed frequency and damping ratio.
+    """
     model = identified_model()
-    columns = {"identified": model.finger, "as printed": designed_on("printed", model)[0]}
-    plants = {name: full_state_space(finger, model.pump_gain) for name, finger in columns.items()}
-    rows = []
-    for name, band in BANDS.items():
-        row = {"within": name}
-        for words, plant in plants.items():
-            step = largest_step(plant, SPEED_LIMIT, PRINTED_TIME, band=band)
-            row[words] = f"{step / DEG:.1f}"
-        rows.append(row)
-    return pd.DataFrame(rows)
+    finger = designed_on("printed", model)[0] if as_printed else model.finger
+    plant = full_state_space(finger, model.pump_gain)
+    return float(largest_step(plant, SPEED_LIMIT, PRINTED_TIME, band=band)) / DEG

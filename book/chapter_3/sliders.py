@@ -11,10 +11,15 @@ from book.chapter_3.regulators import designed_on
 from book.chapter_4.identified_model import IdentifiedModel, identified_model
 from book.companion.style import BLUE, GREY, LINEAR, ORANGE, PRINTED, WIDTH, still, style
 from softgrip.actuator.bending import Finger, free_bending
-from softgrip.actuator.design import DesignProblem, FrequencyBand, InfeasibleDesignError
+from softgrip.actuator.design import (
+    SCRIPT_MASS,
+    SCRIPT_POWER,
+    DesignProblem,
+    FrequencyBand,
+    InfeasibleDesignError,
+)
 from softgrip.actuator.frequency import natural_frequency
 from softgrip.actuator.optimize import optimal_design
-from softgrip.actuator.printed import ANGLE_POWER, FREQUENCY_MASS, FREQUENCY_POWER
 from softgrip.actuator.section import Section, torque
 from softgrip.control.limited_lqr import limited_loop
 from softgrip.control.loop import SPEED_LIMIT
@@ -29,7 +34,7 @@ def _draw(finger: Finger, pressure: float, title: str, axis: tuple[float, float]
     section = finger.section
     over = np.linspace(0, pressure, 31)
     pushed, bent = torque(section, over), free_bending(finger, over) / DEG
-    frequency = natural_frequency(finger, FREQUENCY_MASS)
+    frequency = natural_frequency(finger, SCRIPT_MASS)
     with style(), mpl.rc_context({"figure.constrained_layout.use": False}):
         # Axes at fixed places: a layout engine would move them from frame to frame.
         drawn = Figure(figsize=(WIDTH, 3.2))
@@ -39,7 +44,7 @@ def _draw(finger: Finger, pressure: float, title: str, axis: tuple[float, float]
         draw_section(left, section)
         left.set(xlim=(-18, 18), ylim=(-8, 27), xlabel="mm", aspect="equal")
         left.set_title(title, fontsize=9.5)
-        drawn.text(0.09, 0.03, f"{frequency:.2f} rad/s with {FREQUENCY_MASS} kg", fontsize=9.5)
+        drawn.text(0.09, 0.03, f"{frequency:.2f} rad/s with {SCRIPT_MASS} kg", fontsize=9.5)
         upper.plot(over / MPa, pushed, color=BLUE)
         upper.set(ylim=(0, 0.6), xlim=(0, axis[0]))
         upper.set_title(f"torque {pushed[-1]:.3f} N m", fontsize=9.5)
@@ -50,20 +55,19 @@ def _draw(finger: Finger, pressure: float, title: str, axis: tuple[float, float]
     return drawn
 
 
-def draw_finger(top: float, bottom: float, wall: float, n: float = ANGLE_POWER) -> Figure:
-    """Draw a section 30 mm wide, its torque and its bending over pressure.
+def draw_finger(top: float, bottom: float, wall: float) -> Figure:
+    """Draw a section 30 mm wide, its torque and its bending over pressure, n as in the script.
 
     Args:
         top, bottom, wall: a, b and t, mm.
-        n: Fractional power.
     """
     section = Section(top * MM, bottom * MM, 30 * MM, wall * MM)
     title = f"a {top:g}, b {bottom:g}, t {wall:g} mm"
-    return _draw(Finger(section, fractional_power=n), 0.15 * MPa, title, (0.15, 700))
+    return _draw(Finger(section, fractional_power=SCRIPT_POWER), 0.15 * MPa, title, (0.15, 300))
 
 
 def draw_best(low: float, pressure: float, modulus: float, width: float = 0.4) -> Figure:
-    """Draw the best section for a frequency band, as Eq. (3.20) finds it, n = 1.045.
+    """Draw the best section for a frequency band, as Eq. (3.20) finds it, n and M as in the script.
 
     Args:
         low: Least frequency of the band, rad/s.
@@ -74,7 +78,7 @@ def draw_best(low: float, pressure: float, modulus: float, width: float = 0.4) -
     problem = DesignProblem(
         pressure=pressure * MPa,
         young_modulus=modulus * MPa,
-        fractional_power=FREQUENCY_POWER,
+        fractional_power=SCRIPT_POWER,
         band=FrequencyBand(low, low + width),
     )
     try:

@@ -26,6 +26,9 @@ from softgrip.errors import InvalidInputError
 
 MOST_BOXES = 2_000_000
 
+TOLERANCE = 1e-5
+"""Part of its objective by which another section may be better than a proved design."""
+
 
 @dataclass(frozen=True)
 class Certificate:
@@ -56,7 +59,7 @@ class CertifiedDesign:
 
 
 def certified_design(
-    problem: DesignProblem, start: Section | None = None, *, tolerance: float = 1e-5
+    problem: DesignProblem, start: Section | None = None, *, tolerance: float = TOLERANCE
 ) -> CertifiedDesign:
     """Solve the design problem for its global optimum, and prove that it is one.
 
@@ -86,7 +89,7 @@ def certified_design(
     return CertifiedDesign(design, found)
 
 
-def certify(problem: DesignProblem, design: Design, *, tolerance: float = 1e-5) -> Certificate:
+def certify(problem: DesignProblem, design: Design, *, tolerance: float = TOLERANCE) -> Certificate:
     """Bound the objective over all sections that fulfil the constraints.
 
     Args:
