@@ -220,6 +220,29 @@ def figure_3_11() -> Figure:
     return drawn
 
 
+def parts_of_finest(chambers: int, result: str) -> tuple[list[float], list[float]]:
+    """Return sizes of the elements, m, and what they give as parts of what the finest do.
+
+    Args:
+        chambers: Of the finger.
+        result: "torque" or "angle".
+    """
+    rows = [r for r in read("convergence") if r.chambers == chambers]
+    finest = getattr(min(rows, key=lambda r: r.size), result)
+    return [r.size for r in rows], [getattr(r, result) / finest for r in rows]
+
+
+def over_grooves() -> tuple[list[float], list[float], list[float]]:
+    """Return floors of the grooves, m, torque over Eq. (3.4), and angle over the measured one."""
+    rows = read("groove_floor")
+    push, angle = torque(optimum(), 1.0), 206 * DEG / BENT_TO
+    return (
+        [r.groove_floor for r in rows],
+        [float(r.torque / push) for r in rows],
+        [r.angle / angle for r in rows],
+    )
+
+
 def judges() -> list[tuple[str, FemResult, str]]:
     """Return the finite-element fingers that are drawn: label, result and dash."""
     beam = next(r for r in read("table_3_1") if r.chambers == BEAM)
@@ -300,22 +323,17 @@ def figure_3_e() -> Figure:
     """Draw mesh convergence, and the influence of the grooves."""
     drawn, (upper, lower) = sheet(5.6, 2, 1)
     for chambers, colour in ((BEAM, VERMILION), (CHAMBERS, BLUE)):
-        rows = [r for r in read("convergence") if r.chambers == chambers]
-        finest = min(rows, key=lambda r: r.size)
         words = "one chamber" if chambers == BEAM else "six chambers"
         for name, dash, marker in (("torque", "-", "o"), ("angle", "--", "s")):
-            parts = [getattr(r, name) / getattr(finest, name) for r in rows]
+            sizes, parts = parts_of_finest(chambers, name)
             look = {"marker": marker, "color": colour, "ms": 4, "label": f"{name}, {words}"}
-            upper.plot([r.size / MM for r in rows], parts, dash, **look)
+            upper.plot(np.array(sizes) / MM, parts, dash, **look)
     upper.set(xlabel="size of the elements (mm)", ylabel="part of the finest")
     upper.invert_xaxis()
     upper.legend(fontsize=8.5)
-    rows = list(read("groove_floor"))
-    floors = [r.groove_floor / MM for r in rows]
-    push = torque(optimum(), 1.0)
-    full = 206 * DEG / BENT_TO
-    lower.plot(floors, [r.torque / push for r in rows], "-o", color=BLUE, ms=4, label="torque")
-    lower.plot(floors, [r.angle / full for r in rows], "--s", color=ORANGE, ms=4, label="angle")
+    floors, torques, angles = over_grooves()
+    lower.plot(np.array(floors) / MM, torques, "-o", color=BLUE, ms=4, label="torque")
+    lower.plot(np.array(floors) / MM, angles, "--s", color=ORANGE, ms=4, label="angle")
     lower.set(xlabel="floor of the groove above the neutral surface (mm)")
     lower.set(ylabel="part", yscale="log")
     lower.legend(fontsize=8.5)

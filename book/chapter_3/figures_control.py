@@ -135,7 +135,7 @@ def figure_3_d() -> Figure:
     drawn, axes = sheet(3.2)
     model = identified_model()
     for (name, band), colour in zip(BANDS.items(), (BLUE, LINEAR, GREEN), strict=True):
-        least = [least_time(step, band) for step in STEPS]
+        least = [least_time(float(step), band) for step in STEPS]
         axes.plot(STEPS, least, "o-", color=colour, label=f"within {name}")
     reached = best_within_limit(model.finger, model.pump_gain, STEPS * DEG, 0.02)
     axes.plot(STEPS, [best.time for best in reached], color=BLUE, ls="--", label="LQR, 2 %")

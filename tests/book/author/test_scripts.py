@@ -6,6 +6,13 @@ from scipy.linalg import solve_continuous_are
 from scipy.signal import StateSpace, TransferFunction, lsim, step
 
 from book.author import scripts, tables
+from softgrip.actuator.design import (
+    SCRIPT_BOUNDS,
+    SCRIPT_MASS,
+    SCRIPT_POWER,
+    DesignProblem,
+    FrequencyBand,
+)
 from softgrip.actuator.printed import table_3_2
 from softgrip.gripper.printed_loop import FILTERS
 from softgrip.gripper.shaping_filter import plant_inside, rounding_margin
@@ -21,6 +28,14 @@ def test_the_check_script_gives_what_it_gave_when_it_was_read():
     assert scripts.checked_torque() == pytest.approx(0.305816, abs=5e-7)
     assert scripts.checked_angle() == pytest.approx(140.13, abs=5e-3)
     assert scripts.checked_angle(wall_subtracted=True) == pytest.approx(109.2, abs=0.05)
+
+
+def test_defaults_of_the_package_are_the_design_scripts():
+    problem = scripts.design_problem()
+    assert problem.fractional_power == SCRIPT_POWER == DesignProblem().fractional_power
+    assert problem.bounds == SCRIPT_BOUNDS
+    assert problem.band == FrequencyBand(2.5, 3.5, SCRIPT_MASS, SCRIPT_MASS)
+    assert problem.band == FrequencyBand(2.5, 3.5)
 
 
 def test_the_angle_with_the_wall_subtracted_by_hand():
@@ -106,7 +121,7 @@ def test_both_filters_hold_the_plant_of_the_control_script():
 
 
 def test_sources_that_disagree_are_the_ones_we_know_of():
-    problem, stated = scripts.design_problem(), table_3_2()[0].problem()
+    problem, stated = scripts.design_problem(), DesignProblem()
     assert problem.bounds.height[1] / MM == pytest.approx(24)
     assert stated.bounds.height[1] / MM == pytest.approx(25)
     assert (problem.combined, stated.combined) == ("product", "sum")

@@ -3,7 +3,13 @@
 import pytest
 from matplotlib.figure import Figure
 
-from book.chapter_3.figures_control import table_3_c, table_3_d
+from book.chapter_3.figures_control import (
+    PRINTED_TIME,
+    RATE,
+    settling_over_p,
+    table_3_c,
+    table_3_d,
+)
 from book.chapter_3.sliders import draw_lqr
 
 
@@ -16,6 +22,10 @@ def test_sliders_draw_at_their_ends(step):
 def test_title_tells_the_settling_time():
     assert draw_lqr(100, 0.3, 60).axes[0].get_title(loc="left") == "within 5 % after 3.34 s"
     assert draw_lqr(1, 0.3, 60).axes[0].get_title(loc="left") == "not within 5 % in 4 s"
+
+
+def test_a_smaller_weight_on_the_rate_alone_passes_under_the_printed_time():
+    assert settling_over_p(RATE).min() > PRINTED_TIME > settling_over_p(RATE / 10)[:, 0].min()
 
 
 def test_table_of_settling_times():

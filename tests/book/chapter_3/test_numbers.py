@@ -6,7 +6,10 @@ import pytest
 from scipy.integrate import solve_bvp
 
 from book.chapter_3 import numbers
+from book.chapter_3.tables import READINGS
 from book.companion.claims import printed
+from softgrip.actuator.bending import Finger
+from softgrip.actuator.frequency import spring_constant
 from softgrip.actuator.section import Section, torque
 from softgrip.control.lqr import Weights, step_response
 from softgrip.control.step_metrics import rise_time
@@ -40,6 +43,26 @@ def test_heights_of_table_3_2_with_the_inputs_of_the_script(combined, row, highe
     by_hand = (12 * 0.36 * omega**2 * 0.094**2 / (2 * 0.34e6 * 0.03)) ** (1 / 3) * 1e3 - 4
     assert found == pytest.approx(by_hand, abs=1e-3)
     assert found == pytest.approx(top, abs=1e-3)
+
+
+@pytest.mark.parametrize("row", [2, 3, 4])
+def test_readings_that_give_table_3_3_miss_the_heights_by_more_than_the_script(row):
+    height = printed(f"table-3.2-top-{row}")
+    off = [
+        abs(numbers.optimum("top", f"row {row}", n, mass) - height) for n, mass in READINGS.values()
+    ]
+    assert off[0] < min(off[1:])
+
+
+@pytest.mark.parametrize("power", [1.0, 1.56, 2.5])
+def test_mass_that_gives_the_second_height_gives_none_as_low_as_the_third(power):
+    """Eq. (3.19) at the upper ends of both bands: ``h**(n + 2)`` goes with ``M omega**2``."""
+    second = Finger(Section(0.0193, 0.004, 0.030, 0.0015), fractional_power=power)
+    mass = spring_constant(second) / 2.6**2
+    found = [numbers.optimum("top", row, power, mass) for row in ("row 2", "row 3")]
+    third = 23.3 * (2.4 / 2.6) ** (2 / (power + 2)) - 4
+    assert found == pytest.approx([19.3, third], abs=1e-3)
+    assert third > printed("table-3.2-top-3") + 1
 
 
 def test_band_that_no_section_keeps_gives_no_number():

@@ -8,7 +8,7 @@ from book.chapter_4.identified_model import identified_model
 from book.companion.simulated_logs import STEP
 from softgrip.control.differentiator import RobustDifferentiator
 from softgrip.control.loop import SPEED_LIMIT
-from softgrip.control.lqr import input_gain, lqr_gain
+from softgrip.control.lqr import Weights, input_gain, lqr_gain
 from softgrip.control.minimum_time import minimum_settling_time
 from softgrip.control.rig_controller import Tracking
 from softgrip.control.state_feedback import StateFeedback
@@ -34,6 +34,12 @@ def batch(regulator, runs):
 
 def middle(times):
     return float(np.percentile(times, 50, method="nearest"))
+
+
+def test_faster_design_has_ten_times_p_and_a_tenth_of_the_weight_on_the_rate():
+    printed, fast = Weights(), lqr_gains.FAST
+    assert fast.p / printed.p == pytest.approx(10)
+    assert fast.q == pytest.approx((printed.q[0], printed.q[1] / 10, printed.q[2]))
 
 
 def test_command_gives_the_kept_gains_again(tmp_path):

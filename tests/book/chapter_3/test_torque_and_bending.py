@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from book.chapter_3.figures import bent_on_rig
 from book.chapter_3.torque_and_bending import (
     BUCKLING_TORQUE,
     DESIGNS,
@@ -23,6 +24,11 @@ def test_angles_are_calibrated_to_section_3_4(name):
     alike = settled_angles(DESIGNS[name](), [0.15 * MPa], runs=400)
     # The median of 400 runs, whose stiffness spreads by 8 %: a twentieth of that in the angle.
     assert np.median(alike) / DEG == pytest.approx(PRINTED_ANGLES[name], rel=0.01)
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_the_mean_that_is_drawn_ends_within_a_degree_of_the_print(name):
+    assert float(bent_on_rig(name)[0]) == pytest.approx(PRINTED_ANGLES[name], abs=1.0)
 
 
 def test_torque_is_calibrated_and_read_by_the_scale():
