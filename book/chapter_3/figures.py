@@ -157,7 +157,7 @@ def figure_3_b() -> Figure:
     axes.plot([20], [4], "o", color=SKY, mec="black", label="printed")
     axes.set(xlabel="a (mm)", ylabel="b (mm)", xlim=(14, 24), ylim=(2, 5))
     axes.grid(visible=False)
-    axes.legend(loc="lower left", frameon=True, framealpha=0.9)
+    drawn.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return drawn
 
 

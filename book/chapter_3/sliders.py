@@ -46,7 +46,7 @@ def _draw(finger: Finger, pressure: float, title: str, axis: tuple[float, float]
         left.set_title(title, fontsize=9.5)
         drawn.text(0.09, 0.03, f"{frequency:.2f} rad/s with {SCRIPT_MASS} kg", fontsize=9.5)
         upper.plot(over / MPa, pushed, color=BLUE)
-        upper.set(ylim=(0, 0.6), xlim=(0, axis[0]))
+        upper.set(ylim=(0, 0.75), xlim=(0, axis[0]))
         upper.set_title(f"torque {pushed[-1]:.3f} N m", fontsize=9.5)
         lower.plot(over / MPa, bent, color=ORANGE)
         lower.set(ylim=(0, axis[1]), xlim=(0, axis[0]), xlabel="pressure (MPa)")
