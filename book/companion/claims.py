@@ -255,10 +255,12 @@ def claim_of(chapter: int, pattern: str, key: object = "") -> Claim:
 
 
 def _anywhere(id: str) -> Claim:
-    known = {claim.id: claim for claim in read_claims()}
-    if id not in known:
-        raise UnknownNameError("claim", id, list(known))
-    return known[id]
+    # The file of the chapter that the id names comes first: a figure that shows what is printed
+    # then has read that file alone.
+    for _, path in sorted(_files().items(), key=lambda file: f"{file[0]}." not in id):
+        if found := _file(path)[0].get(id):
+            return found
+    raise UnknownNameError("claim", id, [claim.id for claim in read_claims()])
 
 
 def printed_text(id: str) -> str:
