@@ -10,6 +10,7 @@ from book.companion.block_diagram import arrow, block, finish, sum_point, words
 from book.companion.exhibit import figure
 from book.companion.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, sheet
 from softgrip.provenance import Provenance
+from softgrip.tactile.element_table import PYRAMID_CUT
 
 RUBBER = "#E8EEF4"
 
@@ -20,7 +21,7 @@ def _profiles() -> dict[str, Any]:
     return {
         "cylinder": np.array([(-1, 0), (-1, 1), (1, 1), (1, 0)]),
         "hemisphere": np.stack([np.cos(turn), np.sin(turn)], axis=1),
-        "pyramid": np.array([(-1, 0), (-0.12, 1), (0.12, 1), (1, 0)]),
+        "pyramid": np.array([(-1, 0), (-PYRAMID_CUT, 1), (PYRAMID_CUT, 1), (1, 0)]),
     }
 
 
@@ -32,7 +33,11 @@ def figure_2_4() -> Figure:
     for k, (name, corners) in enumerate(_profiles().items()):
         middle = 3.0 * k
         axes.add_patch(Polygon(corners + np.array((middle, 0)), fc=RUBBER, ec=BLACK, lw=1.2))
-        half = {"cylinder": 1.0, "hemisphere": (1 - y**2) ** 0.5, "pyramid": 1 - 0.88 * y}[name]
+        half = {
+            "cylinder": 1.0,
+            "hemisphere": (1 - y**2) ** 0.5,
+            "pyramid": 1 - (1 - PYRAMID_CUT) * y,
+        }[name]
         axes.plot((middle - half, middle + half), (y, y), color=BLUE, lw=1.8)
         axes.text(middle, y + 0.05, "$A(y)$", color=BLUE, ha="center", va="bottom", fontsize=9)
         arrow(axes, (middle, 1.6), (middle, 1.02), colour=VERMILION)

@@ -1,5 +1,6 @@
 """Figures and tables of Section 2.2: the sensing elements under load, as printed and recomputed."""
 
+from functools import cache
 from math import pi, sqrt
 from typing import Any
 
@@ -7,6 +8,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from book.companion.claims import printed
 from book.companion.exhibit import figure, table
 from book.companion.style import BLUE, GREEN, GREY, ORANGE, PRINTED, WIDTH, sheet
 from softgrip.actuator.elasticity import Elastic
@@ -18,6 +20,7 @@ from softgrip.tactile.element import (
     STATED_MODULUS,
     TABLE_MODULUS,
     Element,
+    Shape,
     compliance,
     shortening,
 )
@@ -46,8 +49,16 @@ DASHES = {"cylinder": "-", "hemisphere": "--", "pyramid": "-."}
 DIVISIONS = {"cylinder": 16, "hemisphere": 16, "pyramid": 4}
 """Of the pictures, coarse: `element_convergence.csv` says what they leave out."""
 
-PRINTED_LEAST = {"cylinder": 0.1, "hemisphere": 0.02, "pyramid": 0.01}
-"""Least forces felt as Section 2.2 prints them, N."""
+LOAD, MOST_LOAD = 0.1, 0.4
+"""N: of Figure 2.5, and the largest one of Figure 2.3 above."""
+
+FINITE_ELEMENTS = Elastic(TABLE_MODULUS, 0.49)
+"""The rubber of Figure 2.5."""
+
+
+def printed_least(shape: Shape) -> float:
+    """Return the least force that a shape feels as Section 2.2 prints it, N."""
+    return printed(f"2.2-least-force-{shape}")
 
 
 @figure("2.3", Provenance.SIMULATED)
@@ -55,10 +66,10 @@ def figure_2_3() -> Figure:
     """Draw resistance over load, and where it can be read."""
     drawn, (upper, lower) = sheet(6.0, 2, 1)
     # The amplifier's gain is not printed: the pyramid anchors what change of resistance is felt.
-    threshold = float(resistance_under(ASSUMED["pyramid"], PRINTED_LEAST["pyramid"])) - AT_REST
+    threshold = float(resistance_under(ASSUMED["pyramid"], printed_least("pyramid"))) - AT_REST
     for shape, element in ASSUMED.items():
         look: dict[str, Any] = {"color": COLOURS[shape], "ls": DASHES[shape]}
-        load = np.linspace(0, 0.4, 201)
+        load = np.linspace(0, MOST_LOAD, 201)
         upper.plot(load, resistance_under(element, load) / 1e6, **look, label=shape)
         load = np.geomspace(2e-3, 0.5, 101)
         change = resistance_under(element, load) - AT_REST
@@ -66,7 +77,7 @@ def figure_2_3() -> Figure:
         lower.plot(load[rising], change[rising] / 1e3, **look, label=shape)
         lower.plot([least_force(element, threshold)], [threshold / 1e3], "s", ms=5,
                    color=COLOURS[shape], label=f"{shape}, least")  # fmt: skip
-        lower.plot([PRINTED_LEAST[shape]], [threshold / 1e3], "o", ms=11, mfc="none",
+        lower.plot([printed_least(shape)], [threshold / 1e3], "o", ms=11, mfc="none",
                    color=COLOURS[shape], label=f"{shape}, printed")  # fmt: skip
     lower.axhline(threshold / 1e3, color=GREY, ls=":")
     upper.set(xlabel="load (N)", ylabel="resistance (MOhm)", title="(b) simulated")
@@ -75,14 +86,20 @@ def figure_2_3() -> Figure:
     return drawn
 
 
+@cache
+def loaded_section(shape: Shape) -> tuple[Floats, Floats]:
+    """Return points of a section at rest, and how far `LOAD` moves them, m, shape (2, n, m)."""
+    solved = solve(ASSUMED[shape], DIVISIONS[shape], FINITE_ELEMENTS)
+    at, per_force = middle_section(solved)
+    return at, LOAD * per_force
+
+
 @figure("2.5", Provenance.SIMULATED)
 def figure_2_5() -> Figure:
     """Draw the three deformed sections."""
     drawn = Figure(figsize=(WIDTH, 6.2))
-    rubber = Elastic(TABLE_MODULUS, 0.49)
-    for axes, (shape, element) in zip(drawn.subplots(3, 1), ASSUMED.items(), strict=True):
-        at, per_force = middle_section(solve(element, DIVISIONS[shape], rubber))
-        moved = 0.1 * per_force
+    for axes, shape in zip(drawn.subplots(3, 1), SHAPES, strict=True):
+        at, moved = loaded_section(shape)
         shown = _draw_section(axes, at / MM, moved / MM)
         drawn.colorbar(shown, ax=axes, label="mm", shrink=0.6, aspect=10)
         axes.set(title=f"{shape}: top moves {-moved[1, -1].min() / MM:.3f} mm", aspect="equal",

@@ -17,6 +17,7 @@ from book.chapter_2.grasps import (
     summary,
 )
 from book.chapter_2.numbers import simulated_lift
+from book.companion.claims import printed
 from book.companion.exhibit import figure, table
 from book.companion.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, sheet
 from softgrip.provenance import Provenance
@@ -32,6 +33,9 @@ from softgrip.tactile.friction import (
     printed_grasps,
 )
 
+ENDS = (5, 95)
+"""Of the bands over many grasps, per cent."""
+
 
 @figure("2.14", Provenance.SIMULATED)
 def figure_2_14() -> Figure:
@@ -39,13 +43,13 @@ def figure_2_14() -> Figure:
     drawn, panels = sheet(6.6, 3, 1, sharex=True)
     for axes, letter, name in zip(panels, "abc", OBJECTS, strict=True):
         made = study(name)
-        low, high = np.percentile(made.measured, (5, 95), axis=0)
+        low, high = np.percentile(made.measured, ENDS, axis=0)
         axes.fill_between(made.time, low, high, color=BLUE, alpha=0.25, lw=0)
         least = contact_force(float(printed_grasps()[name].weight), FRICTION)
         axes.axhline(least, color=GREY, ls=(0, (1, 1)), lw=2.4, label="bears the weight")
         axes.axhline(made.desired, color=ORANGE, label="desired")
         axes.plot(made.time, made.force[0], color=BLACK, ls="--", label="true")
-        for side in np.percentile(made.force, (5, 95), axis=0):
+        for side in np.percentile(made.force, ENDS, axis=0):
             axes.plot(made.time, side, color=BLACK, ls=":", lw=0.9)
         axes.plot(made.time, made.measured[0], color=BLUE, label="measured")
         axes.set(ylabel="force (N)", title=f"({letter}) {name}, {made.desired:g} N", xlim=(0, 6))
@@ -84,6 +88,12 @@ def figure_2_i() -> Figure:
     return drawn
 
 
+def missing_share(name: str) -> float:
+    """Return the share of the force that is missing at rest, the command being a position."""
+    made = position_study(name)
+    return float(1 - at_rest(made, made.measured).mean() / desired_force(name))
+
+
 @figure("2.J", Provenance.SIMULATED)
 def figure_2_j() -> Figure:
     """Draw what each reading of the command makes of a grasp."""
@@ -104,19 +114,14 @@ def figure_2_j() -> Figure:
     lower.plot(gain, 1 / (1 + gain), color=GREEN, ls="--")
     lower.axvline(limit, color=VERMILION, ls="-.", label="unstable beyond")
     for name, mark in zip(OBJECTS, "osv", strict=True):
-        made = position_study(name)
         wanted = desired_force(name)
         gain_here = float(position_gains().kp) * squeezes()[name].stiffness(wanted)
-        missing = 1 - made.measured[:, -1].mean() / wanted
-        lower.plot(gain_here, missing, mark, color=BLUE, ls="none", label=name)
+        lower.plot(gain_here, missing_share(name), mark, color=BLUE, ls="none", label=name)
     lower.set(xlabel=r"loop gain $k_p k$", ylabel="missing share", title="(b) as a position")
     lower.set(ylim=(0, 1.05), xlim=(0, 3.2))
     lower.legend(loc="lower right")
     return drawn
 
-
-DEVIATION = 0.015
-"""Of a measured force, N: Section 2.2."""
 
 WEIGHED = {"egg": "egg", "tofu": "tofu", "carrot": "sliced carrot"}
 """The row of Table 2.2 for each object; the text calls the carrot sliced, then small."""
@@ -135,10 +140,10 @@ def _ripple(name: str, factor: float = 1.0) -> str:
 @table("2.J", Provenance.PRINTED)
 def table_2_j() -> pd.DataFrame:
     """Tabulate the friction that printed forces imply, and what is then lifted."""
-    columns = {}
+    columns, deviation = {}, printed("2.2-deviation")
     for name, given in printed_grasps().items():
         contact, lift, weight = (float(s) for s in (given.contact, given.lift, given.weight))
-        probable = holding_probability(lift, weight, FRICTION, DEVIATION)
+        probable = holding_probability(lift, weight, FRICTION, deviation)
         true = table_2_2()[WEIGHED[name]].true
         columns[name] = {
             "desired force F_c (N), printed": given.contact,
@@ -166,8 +171,7 @@ def table_2_k() -> pd.DataFrame:
     common = common_friction() or Interval(FRICTION, FRICTION)
     for name in OBJECTS:
         made, wanted = study(name), desired_force(name)
-        found, position = summary(made), position_study(name)
-        missing = 1 - at_rest(position, position.measured).mean() / wanted
+        found = summary(made)
         columns[name] = {
             "desired force (N)": f"{wanted:g}",
             "stiffness there (N/m)": f"{squeezes()[name].stiffness(wanted):.0f}",
@@ -183,6 +187,6 @@ def table_2_k() -> pd.DataFrame:
             f"held, friction {common.low:.3f} (%)": f"{100 * held_share(name, common.low):.0f}",
             f"held, friction {FRICTION:.3f} (%)": f"{100 * held_share(name):.0f}",
             f"held, friction {common.high:.3f} (%)": f"{100 * held_share(name, common.high):.0f}",
-            "missing, command as position (%)": f"{100 * missing:.0f}",
+            "missing, command as position (%)": f"{100 * missing_share(name):.0f}",
         }
     return pd.DataFrame(columns).rename_axis("quantity").reset_index()

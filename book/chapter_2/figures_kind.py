@@ -19,6 +19,7 @@ from book.chapter_2.kinds import (
     without_tested_objects,
 )
 from book.chapter_2.logs import OBJECTS, TRAINING, contacts
+from book.companion.claims import printed, printed_text
 from book.companion.exhibit import figure, table
 from book.companion.style import BLUE, GREY, ORANGE, PRINTED, VERMILION, WIDTH, sheet
 from softgrip.provenance import Provenance
@@ -27,12 +28,28 @@ from softgrip.tactile.contact_kind import NEIGHBOURS, bagged_neighbours, nearest
 from softgrip.tactile.contacts import KINDS
 from softgrip.tactile.kind_evaluation import SplitScore, accuracy
 
-PRINTED_ACCURACIES = (
-    ("cross-validation", 504, "96.43", "94.84"),
-    ("testing", 126, "96.83", "95.24"),
-    ("objects", 80, "92.5", "96.25"),
-)
-"""Where, contacts, accuracy of the single (k = 3) and of the bagging classifier, percent."""
+
+def printed_accuracies() -> list[tuple[str, int, str, str]]:
+    """Return where, contacts, accuracy of the single and of the bagging classifier, percent."""
+    shares = {"cross-validation": "training", "testing": "testing"}
+    collected = printed("2.3-contacts")
+    found = [
+        (
+            where,
+            round(collected * printed(f"2.3-share-{part}") / 100),
+            printed_text(f"2.3-single-{part}"),
+            printed_text(f"2.3-bagged-{part}"),
+        )
+        for where, part in shares.items()
+    ]
+    both = printed_text("2.4-objects-single"), printed_text("2.4-objects-bagged")
+    return [*found, ("objects", round(printed("2.4-objects-contacts")), *both)]
+
+
+def printed_right(place: int) -> tuple[int, int]:
+    """Return right answers of both behind a row of `printed_accuracies`: one number each."""
+    _, total, single, bagged = printed_accuracies()[place]
+    return counts_behind(single, total)[0], counts_behind(bagged, total)[0]
 
 
 def draw_neighbours(scores: Mapping[int, Sequence[SplitScore]]) -> Figure:
@@ -90,7 +107,7 @@ def figure_2_7() -> Figure:
     drawn = draw_neighbours(kept_neighbours())
     axes = drawn.axes[0]
     for name, (_, _, single, _), fill in zip(
-        ("training", "testing"), PRINTED_ACCURACIES, (PRINTED, "none"), strict=False
+        ("training", "testing"), printed_accuracies(), (PRINTED, "none"), strict=False
     ):
         axes.plot([NEIGHBOURS], [float(single)], "s", mec=PRINTED, mfc=fill,
                   label=f"{name}, printed")  # fmt: skip
@@ -111,6 +128,12 @@ def figure_2_11() -> Figure:
     return draw_confusions(new.kinds, told)
 
 
+def printed_gain() -> int:
+    """Return how many more objects' contacts bagging has right, as printed."""
+    single, bagged = printed_right(-1)
+    return bagged - single
+
+
 @figure("2.E", Provenance.SIMULATED)
 def figure_2_e() -> Figure:
     """Draw the distribution of the gain by bagging."""
@@ -122,7 +145,7 @@ def figure_2_e() -> Figure:
     ):
         gain, count = np.unique(found[name] - found["single"], return_counts=True)
         axes.bar(gain + side, count, width=0.4, color=colour, label=label)
-    axes.axvline(3, color=PRINTED, ls="--", label="printed")
+    axes.axvline(printed_gain(), color=PRINTED, ls="--", label="printed")
     axes.axvline(0, color=GREY, lw=0.8)
     axes.set(xlabel="bagging right, minus single right (of 80)", ylabel="seeds (of 200)")
     axes.legend(loc="best")
@@ -149,12 +172,13 @@ def figure_2_f() -> Figure:
     return drawn
 
 
-PRINTED_OF = {
-    name: tuple(row[2 + k] for row in PRINTED_ACCURACIES)
-    for k, name in enumerate(("k-nearest neighbours", "bagged neighbours"))
-}
-UNDER = ("< 90", "< 90", "")
-"""What is printed of the other classifiers."""
+def _printed_of(classifier: str) -> tuple[str, ...]:
+    """Return what is printed of a classifier: in cross-validation, in testing, on objects."""
+    named = ("k-nearest neighbours", "bagged neighbours")
+    if classifier in named:
+        return tuple(row[2:][named.index(classifier)] for row in printed_accuracies())
+    parts = ("cross-validated", "tested")
+    return (*(f"< {printed_text(f'2.3-others-{part}')}" for part in parts), "")
 
 
 def _percent(found: Accuracy) -> str:
@@ -167,15 +191,15 @@ def table_2_e() -> pd.DataFrame:
     """Tabulate the classifiers' accuracies beside the printed ones."""
     rows = []
     for name, found in kept("classifiers").groupby("classifier", sort=False):
-        printed = PRINTED_OF.get(str(name), UNDER)
+        told = _printed_of(str(name))
         row = {"classifier": name}
-        parts = zip(("training", "testing"), TOTALS, printed, strict=False)
+        parts = zip(("training", "testing"), TOTALS, told, strict=False)
         for words, part, print_ in parts:
             share = 100 * split_shares(str(name), part)
             row[words] = f"{share.mean():.1f} ({share.min():.1f} to {share.max():.1f}) [{print_}]"
         first = found.iloc[0]
         on_objects = _percent(Accuracy(int(first["objects"]), int(first["objects_of"])))
-        row["objects"] = on_objects + (f" [{printed[2]}]" if printed[2] else "")
+        row["objects"] = on_objects + (f" [{told[2]}]" if told[2] else "")
         rows.append(row)
     return pd.DataFrame(rows)
 
@@ -184,8 +208,8 @@ def table_2_e() -> pd.DataFrame:
 def table_2_f() -> pd.DataFrame:
     """Tabulate counts, intervals and tests of the printed accuracies."""
     rows = []
-    for where, total, *percents in PRINTED_ACCURACIES:
-        single, bagged = (Accuracy(counts_behind(percent, total)[0], total) for percent in percents)
+    for place, (where, total, *percents) in enumerate(printed_accuracies()):
+        single, bagged = (Accuracy(right, total) for right in printed_right(place))
         p = [test.p_value for test in overlaps(single.correct, bagged.correct, total)]
         rows.append(
             {

@@ -1,5 +1,6 @@
 """Figures and tables of Chapter 2 on the pad: what it shows, place and angle of a contact."""
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from book.chapter_2.logs import OBJECTS, PAD_SEED, TRAINING, contacts, errors
+from book.companion.claims import printed
 from book.companion.exhibit import figure, table
 from book.companion.style import BLACK, BLUE, GREEN, ORANGE, VERMILION, WIDTH
 from softgrip.arrays import Floats
@@ -25,18 +27,47 @@ from softgrip.tactile.pad_layout import ELEMENT_SIDE, PAD_SIZE, THREE_TWO_THREE
 from softgrip.units import DEG, MM
 
 LOGS = (TRAINING, OBJECTS)
+
+
+@dataclass(frozen=True)
+class DrawnGrasp:
+    """A grasp of Figure 2.13: object, how it lies, and the claim of its force in Section 2.4."""
+
+    name: str
+    pose: Pose
+    claim: str
+
+    @property
+    def item(self) -> PadObject:
+        """What is grasped."""
+        return pad_object(self.name)
+
+    @property
+    def force(self) -> float:
+        """N."""
+        return printed(self.claim)
+
+    @property
+    def responses(self) -> Floats:
+        """What the pad feels, shape (elements,)."""
+        pad = make_pad(PadParameters(), PAD_SEED)
+        return responses_to(pad, press(pad, self.item, self.pose, self.force))
+
+
 GRASPS = (
-    ("egg", (0.0, 2.0), 0.0, 0.30),
-    ("tofu", (0.0, 0.0), 0.0, 0.09),
-    ("small carrot", (0.0, 1.0), 0.0, 0.08),
-    ("small carrot", (0.0, 0.0), 60.0, 0.08),
-    ("small carrot", (0.0, 0.0), 90.0, 0.08),
-    ("small carrot", (0.0, 0.0), -45.0, 0.08),
+    DrawnGrasp("egg", Pose((0.0, 2 * MM)), "2.4-desired-force-egg"),
+    DrawnGrasp("tofu", Pose((0.0, 0.0)), "2.4-desired-force-tofu"),
+    DrawnGrasp("small carrot", Pose((0.0, 1 * MM)), "2.4-desired-force-carrot"),
+    *(
+        DrawnGrasp("small carrot", Pose((0.0, 0.0), angle * DEG), "2.4-desired-force-carrot")
+        for angle in (60, 90, -45)
+    ),
 )
-"""Figure 2.13: object, place (mm), angle (deg) and the force that Section 2.4 grasps with (N).
-Places and angles are not printed."""
+"""Places and angles are not printed."""
 BALL, ROD, FORCE = "ball 20 mm", "rod 20 mm", 0.15
 """What the maps are drawn with, and its force, N."""
+BESIDE = 3.0
+"""How far the second rod of Figure 2.D lies beside the middle, mm."""
 
 
 COLOURS = LinearSegmentedColormap.from_list("touch", ["#FFFFFF", "#FC9272", "#A50F15"])
@@ -109,17 +140,13 @@ def draw_estimate(axes: Any, responses: Floats, *, line: bool) -> None:
 def figure_2_13() -> Figure:
     """Draw the pad under six grasps."""
     drawn = Figure(figsize=(WIDTH, 7.2))
-    pad = make_pad(PadParameters(), PAD_SEED)
     scale: Any = None
     panels = drawn.subplots(3, 2)
-    for axes, letter, (name, (x, y), angle, force) in zip(
-        panels.flat, "abcdef", GRASPS, strict=True
-    ):
-        item, pose = pad_object(name), Pose((x * MM, y * MM), angle * DEG)
-        found = responses_to(pad, press(pad, item, pose, force))
-        scale = draw_elements(axes, found, outline(item, pose))
-        draw_estimate(axes, found, line=item.kind == "line")
-        axes.set_title(f"({letter}) {name}, {force:.2f} N", fontsize=9.5)
+    for axes, letter, grasp in zip(panels.flat, "abcdef", GRASPS, strict=True):
+        found = grasp.responses
+        scale = draw_elements(axes, found, outline(grasp.item, grasp.pose))
+        draw_estimate(axes, found, line=grasp.item.kind == "line")
+        axes.set_title(f"({letter}) {grasp.name}, {grasp.force:.2f} N", fontsize=9.5)
         axes.set(xticks=[], yticks=[])
         axes.spines[["left", "bottom"]].set_visible(False)
     for axes in panels[-1]:
@@ -165,7 +192,7 @@ def figure_2_d() -> Figure:
     drawn = Figure(figsize=(WIDTH, 6.4))
     upper, lower = drawn.subplots(2, 1, height_ratios=(2, 3))
     true = np.arange(-90, 91, 2.0)
-    rods = ((0.0, "through the middle", BLUE, "-"), (3.0, "3 mm beside", ORANGE, "--"))
+    rods = ((0.0, "through the middle", BLUE, "-"), (BESIDE, f"{BESIDE:g} mm beside", ORANGE, "--"))
     for offset, words, colour, dash in rods:
         error = [_signed_error(offset * MM, value * DEG) / DEG for value in true]
         upper.plot(true, error, color=colour, ls=dash, label=words)

@@ -14,6 +14,9 @@ from scipy.stats import binomtest
 
 from softgrip.errors import InvalidInputError
 
+CONFIDENCE = 0.95
+"""Of an interval, unless another is asked for."""
+
 
 @dataclass(frozen=True)
 class Accuracy:
@@ -48,7 +51,7 @@ class Accuracy:
         """Right answers by trials, 0 to 1."""
         return self.correct / self.total
 
-    def interval(self, confidence: float = 0.95) -> tuple[float, float]:
+    def interval(self, confidence: float = CONFIDENCE) -> tuple[float, float]:
         """Return the interval of Clopper and Pearson (1934), shares.
 
         It covers the true share with at least the confidence asked for, if the trials are

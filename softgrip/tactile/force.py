@@ -10,6 +10,7 @@ from scipy.stats import foldnorm, t
 from softgrip.errors import InvalidInputError
 from softgrip.provenance import data_rows
 from softgrip.reads import remembered
+from softgrip.tactile.accuracy import CONFIDENCE
 from softgrip.units import GRAM_FORCE
 
 TABLE_2_2 = "tactile/table_2_2.csv"
@@ -63,7 +64,7 @@ class Weighing:
         off = abs(self.measured - self.true) / self.deviation
         return 1 - float(foldnorm.mean(off, scale=self.deviation)) / self.true
 
-    def interval(self, confidence: float = 0.95) -> tuple[float, float]:
+    def interval(self, confidence: float = CONFIDENCE) -> tuple[float, float]:
         """Return Student's interval of the mean, in the unit of the weights."""
         half = (
             float(t.ppf((1 + confidence) / 2, self.times - 1)) * self.deviation / sqrt(self.times)

@@ -96,7 +96,7 @@ def test_gain_of_figure_2_e_has_every_seed():
 
 
 def test_printed_accuracies_of_the_table_stand_for_one_count_each():
-    for _, total, *percents in shown.PRINTED_ACCURACIES:
+    for _, total, *percents in shown.printed_accuracies():
         assert [len(counts_behind(percent, total)) for percent in percents] == [1, 1]
 
 
