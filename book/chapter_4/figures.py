@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from book.chapter_4.controllers import own_loop
 from book.chapter_4.identified_model import identified_model
+from book.companion.claims import printed, printed_text
 from book.companion.exhibit import figure
 from book.companion.style import (
     GREY,
@@ -20,6 +21,7 @@ from book.companion.style import (
     WIDTH,
     sheet,
 )
+from softgrip.control.designs import NOISE
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.minimum_time import farthest
 from softgrip.dynamics.second_order import full_state_space
@@ -34,7 +36,7 @@ from softgrip.pump.flow import PARAMETER_SETS
 from softgrip.pump.gas import ATMOSPHERE, capacity
 from softgrip.pump.pressure import pressure
 from softgrip.pump.printed_filter import open_loop_capacity, printed_filter, run_printed
-from softgrip.units import DEG, ML, MPa
+from softgrip.units import DEG, ML, MM, MPa
 
 GAS_VOLUME = 90 * ML
 """Air of a full 60 mL syringe and a finger with its tube, about 30 mL; it is not printed."""
@@ -51,7 +53,11 @@ def figure_4_3() -> Figure:
     time = np.linspace(0, 6, 61)
     constant = capacity(ATMOSPHERE, GAS_VOLUME)
     names = ("larger area", "smaller lead", "higher speed")
-    words = ("A = 16.62e-4 m²", "l = 2 mm", "3.30 rev/s")
+    words = (
+        f"A = {printed_text('table-4.1-area-200-ml')} m²",
+        f"l = {printed('table-4.1-lead-monocarrier') / MM:g} mm",
+        f"{printed_text('table-4.1-speed-higher')} rev/s",
+    )
     for axes, letter, name, word in zip(
         drawn.subplots(3, 1, sharex=True), "abc", names, words, strict=True
     ):
@@ -183,7 +189,7 @@ def figure_4_c() -> Figure:
     time, model = np.linspace(0, 0.6, 25), identified_model()
     reached = farthest(full_state_space(model.finger, model.pump_gain), SPEED_LIMIT, time)
     axes.plot(time, reached / DEG, color=LUDWICK)
-    axes.axvline(0.2, color=GREY, ls=":")
-    axes.axhline(2, color=VERMILION, ls=":")
+    axes.axvline(printed("4.4-time-to-change"), color=GREY, ls=":")
+    axes.axhline(NOISE / DEG, color=VERMILION, ls=":")
     axes.set(xlabel="time (s)", ylabel="farthest (deg)", xlim=(0, 0.6), ylim=(0, None))
     return drawn

@@ -26,6 +26,9 @@ second."""
 END = 2.0
 """Length of the end of a record that counts as its steady state, s."""
 
+SHARES, ANGLES = (0.02, 0.05), (2 * DEG, 5 * DEG)
+"""Half widths of the bands in which a step is judged: shares of it, and rad."""
+
 AVERAGING = "the mean of the angle about each row"
 
 About = Literal["reference", "own end"]
@@ -100,7 +103,7 @@ def judge_step(
     own = final_value(t, raw, window=END)
     middle = np.broadcast_to(target, own.shape) if about == "reference" else own
     tail = t >= t[-1] - END
-    bands = ((0.02, False), (0.05, False), (2 * DEG, True), (5 * DEG, True))
+    bands = [(x, False) for x in SHARES] + [(x, True) for x in ANGLES]
     found = [
         settling_time(t, y, final=middle, initial=initial, band=band, absolute=absolute)
         for band, absolute in bands

@@ -136,8 +136,12 @@ def winding_limited_speed(
     return voltage / (rotor_teeth * inductance * current)
 
 
+SUPPLY = 24.0
+"""Of the motors' drivers, V: ours, as none is printed."""
+
+
 def _nema_17(name: str, torque: float, inductance: float, current: float) -> Motor:
-    free = winding_limited_speed(24.0, inductance, current)
+    free = winding_limited_speed(SUPPLY, inductance, current)
     return Motor(f"NEMA 17, {name}", torque, free, speed_limit=5 * REV)
 
 
@@ -160,4 +164,4 @@ MOTORS = (
 )
 """Three lengths of the frame; the print gives no torque. Holding torque, inductance and current
 are the makers' for Trinamic QSH4218-35-10-027 and -41-10-035 and Stepperonline 17HS19-2004S1; the
-supply of 24 V is ours; the limit of 5 rev/s is that of Section 3.4."""
+limit of 5 rev/s is that of Section 3.4."""
