@@ -16,7 +16,7 @@ NOT_NUMBERS = re.compile(
     rf"|(?:Sections?|Chapters?|Figures?|Tables?|Eqs?\.) \(?[\d.]+\w?\)?{LIST}"
     r"|Design \d|SPA \d|Ecoflex™? \d\d-\d\d|Dragon Skin \d\d|Mold Star \d\d\w*|SORTA-Clear \d\d"
     r"|NEMA \d\d"
-    r"|\b[A-Za-z]+_\d\b|\b[HRL]_?\d\b"
+    r"|\b[A-Za-z]+_\d\b|\b[EHRL]_?\d\b"
 )
 
 
