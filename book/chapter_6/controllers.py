@@ -16,8 +16,9 @@ from softgrip.gripper.internal_model import PERIOD, InternalModelController, con
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.optimal_feedforward import FeedforwardProgram, OptimalFeedforward
 from softgrip.gripper.plant import Gripper
+from softgrip.gripper.printed_loop import FILTERS
 from softgrip.gripper.reach import project
-from softgrip.gripper.shaping_filter import FAST, SLOW, filter_state_space
+from softgrip.gripper.shaping_filter import filter_state_space
 from softgrip.logs.fingers import identified_gripper, read_runs
 from softgrip.provenance import data_file
 from softgrip.reads import remembered
@@ -29,8 +30,8 @@ WANTED = 45 * DEG
 """rad: what Section 6.4 asks of both fingers."""
 OPEN_LOGS = tuple(f"simulated/gripper-open-{run}.csv" for run in range(1, 8))
 
-Name = Literal["open loop", "H 4.8/s", "H 2/s", "LQR", "LQR faster", "optimal feedforward"]
-FILTERS = {"H 4.8/s": FAST, "H 2/s": SLOW}
+Name = Literal["open loop", "4.8/s", "2/s", "LQR", "LQR faster", "optimal feedforward"]
+"""The scheme of Figure 6.3 goes by its filter, one of `FILTERS`."""
 WEIGHTS = {"LQR": Weights(), "LQR faster": Weights(p=1000.0, q=(1.0, 0.03, 0.0))}
 """Of the regulators: those of Eq. (3.29), and those of Chapter 3's faster one."""
 

@@ -86,7 +86,7 @@ def figure_6_a() -> Figure:
     for name, colour in zip(FILTERS, (BLUE, ORANGE), strict=True):
         found = run_printed(name, period=FINE)
         apart = synchronization_error(found.angles, equal_targets()) / DEG
-        lower.plot(found.time, apart, color=colour, label=f"H for {name}")
+        lower.plot(found.time, apart, color=colour, label=filters.label(name))
     lower.axhline(2, color=GREY, ls=":")
     lower.set(title="(b)", xlabel="time (s)", ylabel="apart (deg)", xlim=(0, 4), ylim=(0, None))
     lower.legend(loc="upper right")

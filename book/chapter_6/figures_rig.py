@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from book.chapter_6 import filters
 from book.chapter_6 import speed as gripper_speed
 from book.chapter_6.comparison import CRITERIA, ENTRIES, RIGS, judged, robustness_margin
 from book.chapter_6.logs import names_of
@@ -37,6 +38,7 @@ from softgrip.arrays import Floats
 from softgrip.control.step_metrics import final_value
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.plant import FingerDynamics
+from softgrip.gripper.printed_loop import FILTERS
 from softgrip.gripper.uncertainty import bounding_weight, deviation, excited_band, finger_response
 from softgrip.logs.fingers import GripperLogs, each_identified, read_runs, run_deviation
 from softgrip.provenance import Provenance, data_folder
@@ -179,7 +181,7 @@ def table_6_h() -> pd.DataFrame:
         _, _, other = name.partition(", ")
         rows.append(
             {
-                "controller": f"same, {other}" if other else name,
+                "controller": f"same, {other}" if other else filters.label(name),
                 "settled": middle_and_ends(found.settling["2 deg"]),
                 "overshoot (%)": middle_and_ends(found.overshoot, 0.01, 0),
                 "out of step": middle_and_ends(found.synchronization, DEG),
@@ -218,13 +220,13 @@ def table_6_i() -> pd.DataFrame:
 def table_6_j() -> pd.DataFrame:
     """Tabulate settling times by criterion."""
     rows = []
-    for name in ("H for 4.8/s", "H for 2/s"):
+    for name in FILTERS:
         for rig in RIGS:
             found = judged(name, rig)
             times = {key: float(np.median(found.settling[key])) for key in CRITERIA}
             rows.append(
                 {
-                    "filter": name,
+                    "filter": filters.label(name),
                     "gripper": rig,
                     **{k: f"{t:.1f}" if np.isfinite(t) else "never" for k, t in times.items()},
                     "overshoot (%)": f"{100 * np.median(found.overshoot):.0f}",

@@ -5,6 +5,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from book.chapter_6 import finger_count
+from book.chapter_6.filters import label
 from book.companion.exhibit import figure, table
 from book.companion.style import (
     BLACK,
@@ -41,11 +42,6 @@ LIMITS = {"1 (u a share)": 1.0, "5 (u in rev/s)": 5.0, "31.4 (u in rad/s)": 5 * 
 BEST = "best feedforward"
 CONTROLS = {"4.8/s": (ORANGE, "--"), "2/s": (LUDWICK, "-"), BEST: (OTHER, "-.")}
 """The printed loops by their filters, the best command beside them, and how each is drawn."""
-
-
-def label(name: str) -> str:
-    """Return what one of `CONTROLS` is called in figures and tables."""
-    return f"H for {name}" if name in FILTERS else name
 
 
 def printed_loop(name: str) -> ControllerMatrices:

@@ -29,6 +29,15 @@ FREQUENCY = np.geomspace(1e-2, 1e2, 2001)
 """Over the crossover, at which peaks are sought."""
 
 
+def label(name: str) -> str:
+    """Return what is shown for a control: one that goes by its filter is that filter's.
+
+    >>> label("2/s"), label("2/s, knows limit"), label("faster LQR")
+    ('H for 2/s', 'H for 2/s, knows limit', 'faster LQR')
+    """
+    return f"H for {name}" if name.partition(", ")[0] in FILTERS else name
+
+
 def author_plant(
     natural_frequency: float = NATURAL_FREQUENCY, damping_ratio: float = DAMPING_RATIO
 ) -> FingerDynamics:

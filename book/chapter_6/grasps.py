@@ -28,7 +28,7 @@ STIFFNESS = {"soft": 50.0, "medium": 200.0, "stiff": 2000.0}
 DRIVES: dict[str, Callable[[], RigController]] = {
     "slow push": lambda: CommandSequence(_push(0.5 * REV)),
     "fast push": lambda: CommandSequence(_push(5 * REV)),
-    "scheme, 2/s": lambda: gripper_controller("H 2/s"),
+    "scheme, 2/s": lambda: gripper_controller("2/s"),
 }
 """A push is twice that of the open-loop step; the scheme goes for the same angles as without a
 disc, which lie beyond its surface."""

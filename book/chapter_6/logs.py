@@ -56,13 +56,13 @@ _OPEN = Recipe(
 )
 _FAST = replace(
     _OPEN,
-    control=lambda: gripper_controller("H 4.8/s"),
+    control=lambda: gripper_controller("4.8/s"),
     words="Figure 6.7 (b), scheme of Figure 6.3 with the H(s) for 4.8/s",
     reference=_target,
 )
 _SLOW = replace(
     _FAST,
-    control=lambda: gripper_controller("H 2/s"),
+    control=lambda: gripper_controller("2/s"),
     words="Figure 6.7 (b), scheme of Figure 6.3 with the H(s) for 2/s",
 )
 _RECIPES = {

@@ -98,7 +98,7 @@ def push_response(*, runs: int = 50) -> tuple[Floats, Floats]:
     pushed, free = (
         drive(
             Simulation(printed_gripper(), runs=runs, seed=SEED, period=PERIOD),
-            gripper_controller("H 2/s"),
+            gripper_controller("2/s"),
             duration=12.0,
             push=push,
         )

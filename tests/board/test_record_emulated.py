@@ -47,7 +47,7 @@ def test_chapter_6_scheme(path):
     targets = target_angles(own_model())
     with connect("emulated:gripper") as rig:
         rig.home()
-        record(rig, gripper_controller("H 2/s"), 7.0, path, reference=targets)
+        record(rig, gripper_controller("2/s"), 7.0, path, reference=targets)
     log = read_log(path)
     assert log["time"].size == 71
     ends = fingers_of(log)[:, -20:].mean(axis=1)

@@ -159,8 +159,8 @@ def test_best_possible_command_cannot_settle_the_model_in_the_printed_time():
     # stay within 2 % from then on.
     assert best_command(own_model()).settling == pytest.approx(1.6)
     assert np.median(judged("optimal feedforward").settling["10 %"]) > 1.1
-    assert np.median(judged("H for 2/s").settling["10 %"]) > 1.1
-    assert np.median(judged("H for 4.8/s").settling["10 %"]) > 0.7
+    assert np.median(judged("2/s").settling["10 %"]) > 1.1
+    assert np.median(judged("4.8/s").settling["10 %"]) > 0.7
     assert set(judged("open loop").settling) == set(CRITERIA)
 
 

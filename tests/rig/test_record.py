@@ -83,7 +83,7 @@ def test_chapter_6_scheme_gives_the_log_of_its_own_loop(path, tmp_path):
     targets = np.round(target_angles(own_model()), 9)  # as the log's
     with simulated_gripper(seed=SEED) as gripper:
         gripper.home()
-        record(gripper, gripper_controller("H 4.8/s"), 3.0, path, reference=targets)
+        record(gripper, gripper_controller("4.8/s"), 3.0, path, reference=targets)
     made = read_log(path)
     assert set(made.columns) == set(own.columns)
     for name in own.columns:

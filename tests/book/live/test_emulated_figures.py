@@ -64,7 +64,7 @@ def test_two_fingers_on_one_pump(tmp_path):
     duration = float(read_log(kept("gripper-slow-1"))["time"][-1])
     with connect("emulated:gripper") as rig:
         rig.home()
-        record(rig, gripper_controller("H 2/s"), duration, path, reference=targets)
+        record(rig, gripper_controller("2/s"), duration, path, reference=targets)
     # From run to run the fingers differ too.
     assert apart(path, kept("gripper-slow-1")) < 6 * DEG
     others = (kept(f"gripper-{kind}-1") for kind in ("open", "fast", "push"))
