@@ -45,10 +45,10 @@ ENTRIES: dict[str, Callable[[], RigController]] = {
     "faster LQR": lambda: gripper_controller("LQR faster"),
     "4.8/s": lambda: gripper_controller("4.8/s"),
     "4.8/s, knows limit": lambda: gripper_controller("4.8/s", limit=SPEED_LIMIT),
-    "4.8/s, on (6.26)": lambda: gripper_controller("4.8/s", model=printed_model()),
+    "4.8/s, on Eq. (6.26)": lambda: gripper_controller("4.8/s", model=printed_model()),
     "2/s": lambda: gripper_controller("2/s"),
     "2/s, knows limit": lambda: gripper_controller("2/s", limit=SPEED_LIMIT),
-    "2/s, on (6.26)": lambda: gripper_controller("2/s", model=printed_model()),
+    "2/s, on Eq. (6.26)": lambda: gripper_controller("2/s", model=printed_model()),
 }
 """What makes each controller; all are cut at the motor's limit, whether they know it or not."""
 

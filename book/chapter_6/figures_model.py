@@ -9,12 +9,14 @@ from matplotlib.figure import Figure
 
 from book.chapter_6 import filters
 from book.chapter_6.numbers import COMPARED
+from book.companion.claims import printed_text
 from book.companion.exhibit import figure, table
 from book.companion.style import BLUE, GREEN, GREY, ORANGE, PRINTED, PURPLE, VERMILION, sheet
+from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.step_metrics import settling_time
 from softgrip.gripper.gripper_loop import run_gripper
-from softgrip.gripper.internal_model import InternalModelController, controller_matrices
+from softgrip.gripper.internal_model import PERIOD, InternalModelController, controller_matrices
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.plant import PRINTED as GRIPPER
 from softgrip.gripper.printed_loop import FILTERS, FINE, equal_targets, run_printed
@@ -36,6 +38,7 @@ from softgrip.gripper.shaping_filter import (
 from softgrip.gripper.synchronization import synchronization_error
 from softgrip.gripper.uncertainty import deviation, finger_response
 from softgrip.provenance import Provenance
+from softgrip.reads import remembered
 from softgrip.units import DEG, REV
 
 SPA = (BLUE, GREEN)
@@ -43,6 +46,8 @@ SPA = (BLUE, GREEN)
 
 PUSH, PUSHED = 0.2, (1.4, 2.4)
 """Push on the left finger [rad] and from when to when [s]; only the start is printed."""
+NOISE = 2 * DEG
+"""Of the sensors, RMS, rad (Section 6.4)."""
 
 
 def push(time: float) -> tuple[float, float]:
@@ -56,7 +61,7 @@ def figure_6_6() -> Figure:
     drawn, panels = sheet(6.0, 3, 1, sharex=True, sharey=True)
     runs = {
         "(a) nominal": run_printed(period=FINE),
-        "(b) sensor noise": run_printed(noise=2 * DEG),
+        "(b) sensor noise": run_printed(noise=NOISE),
         "(c) push on the left finger": run_printed(push=push),
     }
     for axes, (title, found) in zip(panels, runs.items(), strict=True):
@@ -70,24 +75,31 @@ def figure_6_6() -> Figure:
     return drawn
 
 
+LOW_TO_HIGH = np.geomspace(0.05, 100, 300)
+"""Frequencies at which targets are split, rad/s."""
+ASKED = {"equal angles": np.ones(2), "proj(Y_d)": equal_targets()}
+"""Targets, of which only the direction matters."""
+
+
+def apart(target: str) -> tuple[Floats, Floats]:
+    """Return the time [s], and how far the fingers are apart [rad] by a printed filter."""
+    found = run_printed(target, period=FINE)
+    return found.time, synchronization_error(found.angles, equal_targets())
+
+
 @figure("6.A", Provenance.PRINTED)
 def figure_6_a() -> Figure:
     """Draw the unreachable share over frequency and the synchronization error over time."""
     drawn, (upper, lower) = sheet(4.8, 2, 1)
-    frequency = np.geomspace(0.05, 100, 300)
-    for goal, words, colour, dash in (
-        (np.ones(2), "equal angles", VERMILION, "-"),
-        (equal_targets(), "proj(Y_d)", BLUE, "--"),
-    ):
-        share = 100 * outside_share(GRIPPER, goal, frequency)
-        upper.semilogx(frequency, share, color=colour, ls=dash, label=words)
+    for words, colour, dash in (("equal angles", VERMILION, "-"), ("proj(Y_d)", BLUE, "--")):
+        share = 100 * outside_share(GRIPPER, ASKED[words], LOW_TO_HIGH)
+        upper.semilogx(LOW_TO_HIGH, share, color=colour, ls=dash, label=words)
     upper.set(title="(a)", xlabel="frequency (rad/s)", ylabel="outside Im P (%)", ylim=(0, 10))
     upper.legend(loc="center left")
     for name, colour in zip(FILTERS, (BLUE, ORANGE), strict=True):
-        found = run_printed(name, period=FINE)
-        apart = synchronization_error(found.angles, equal_targets()) / DEG
-        lower.plot(found.time, apart, color=colour, label=filters.label(name))
-    lower.axhline(2, color=GREY, ls=":")
+        time, difference = apart(name)
+        lower.plot(time, difference / DEG, color=colour, label=filters.label(name))
+    lower.axhline(float(printed_text("6.4-measured-transient-difference")), color=GREY, ls=":")
     lower.set(title="(b)", xlabel="time (s)", ylabel="apart (deg)", xlim=(0, 4), ylim=(0, None))
     lower.legend(loc="upper right")
     return drawn
@@ -117,22 +129,33 @@ def figure_6_b() -> Figure:
     return drawn
 
 
+PERIODS, DELAYS = np.linspace(0.01, 0.3, 30), (0, 1, 2)
+"""Sampling periods, s, and by how many of them the command is late."""
+
+
 @figure("6.C", Provenance.PRINTED)
 def figure_6_c() -> Figure:
     """Draw the stability margin over the period, by discretisation and delay."""
     drawn, axes = sheet(3.4)
-    periods = np.linspace(0.01, 0.3, 30)
-    corners = box(GRIPPER, points=2)
-    for delay, colour in enumerate((BLUE, ORANGE, PURPLE)):
+    for delay, colour in zip(DELAYS, (BLUE, ORANGE, PURPLE), strict=True):
         for method, dash in (("bilinear", "-"), ("zoh", "--")):
-            margins = [_margin(float(h), method, delay, corners) for h in periods]
             label = f"{delay} late" if method == "bilinear" else None
-            axes.plot(periods, margins, color=colour, ls=dash, label=label)
+            axes.plot(PERIODS, margins(method, delay), color=colour, ls=dash, label=label)
     axes.axhline(0, color=GREY, lw=1)
-    axes.axvline(0.1, color=GREY, ls=":")
+    axes.axvline(PERIOD, color=GREY, ls=":")
     axes.set(xlabel="period (s)", ylabel="margin", xlim=(0, 0.3), ylim=(-0.3, 0.2))
     axes.legend(loc="lower left")
     return drawn
+
+
+@remembered
+def margins(method: str, delay: int) -> Floats:
+    """Return the worst margin of the corners of the box at each of `PERIODS`.
+
+    ``method`` is as of `controller_matrices`.
+    """
+    corners = box(GRIPPER, points=2)
+    return np.array([_margin(float(period), method, delay, corners) for period in PERIODS])
 
 
 def _margin(period: float, method: Any, delay: int, corners: Any) -> float:
@@ -203,12 +226,12 @@ def table_6_b() -> pd.DataFrame:
 def table_6_c() -> pd.DataFrame:
     """Tabulate settling times by criterion."""
     rows = []
-    for name, angle, printed in (
-        ("4.8/s", np.pi / 3, "0.6"),
-        ("4.8/s", np.pi / 4, "0.7"),
-        ("2/s", np.pi / 4, "1.1"),
+    for name, angle, claim in (
+        ("4.8/s", np.pi / 3, "6.4-simulated-settling"),
+        ("4.8/s", np.pi / 4, "6.4-settling-fast"),
+        ("2/s", np.pi / 4, "6.4-settling-slow"),
     ):
-        for period in (FINE, 0.1):
+        for period in (FINE, PERIOD):
             found = run_printed(name, period=period, angle=angle)
             row = {"H": name, "step": f"{angle / DEG:.0f} deg", "period (s)": f"{period:g}"}
             for words, band in CRITERIA.items():
@@ -220,7 +243,7 @@ def table_6_c() -> pd.DataFrame:
                     absolute="deg" in words,
                 )
                 row[words] = f"{settled[0]:.2f}, {settled[1]:.2f}"
-            rows.append(row | {"printed": printed})
+            rows.append(row | {"printed": printed_text(claim)})
     return pd.DataFrame(rows)
 
 
@@ -236,7 +259,7 @@ def table_6_d() -> pd.DataFrame:
                 "H": name,
                 "unit": unit,
                 "peak of u": f"{np.abs(free.commands).max():.1f}",
-                "integral of u": f"{free.commands.sum() * 0.1:.3f}",
+                "integral of u": f"{free.commands.sum() * PERIOD:.3f}",
                 "peak over limit": f"{np.abs(free.commands).max() / limit:.2f}",
             }
             for words, known in (("model knows", limit), ("model does not", np.inf)):
@@ -279,7 +302,7 @@ def table_6_g() -> pd.DataFrame:
                         sampled_stability(matrices, real, delay_samples=delay).margin
                         for real in around
                     )
-                    for delay in (0, 1, 2)
+                    for delay in DELAYS
                 },
             }
         )

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from book.chapter_6 import filters
 from book.chapter_6 import speed as gripper_speed
 from book.chapter_6.comparison import CRITERIA, ENTRIES, RIGS, judged, robustness_margin
-from book.chapter_6.logs import names_of
+from book.chapter_6.logs import LOW_SPEED, names_of
 from book.chapter_6.results import (
     BAND_SHARE,
     bounds,
@@ -35,6 +35,7 @@ from book.companion.style import (
     sheet,
 )
 from softgrip.arrays import Floats
+from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.step_metrics import final_value
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.plant import FingerDynamics
@@ -44,6 +45,8 @@ from softgrip.logs.fingers import GripperLogs, each_identified, read_runs, run_d
 from softgrip.provenance import Provenance, data_folder
 from softgrip.units import DEG, REV
 
+MODELLED = np.geomspace(0.5, 80, 100)
+"""Frequencies at which identified models are compared, rad/s."""
 SIDES = (("left", BLUE, "-"), ("right", GREEN, "--"))
 PRINTED_BAND = {"6.4": (6.0, 63.0), "6.5": (6.0, 50.0)}
 """rad/s, that the text calls excited."""
@@ -67,7 +70,8 @@ def _steps(axes: Any, time: Floats, runs: Floats, colour: str, dash: str, label:
     axes.plot(time, angles.mean(axis=0), color=colour, ls=dash, label=label)
 
 
-def _model_deviation(models: Sequence[FingerDynamics], frequency: Floats) -> Floats:
+def model_deviation(models: Sequence[FingerDynamics], frequency: Floats) -> Floats:
+    """Return `deviation` of models, their mean response being nominal, shape (N,)."""
     found = np.array([finger_response(model, frequency) for model in models])
     return deviation(found, found.mean(axis=0))
 
@@ -89,13 +93,13 @@ def figure_6_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw repeated steps and their deviations; ``logs`` gives runs of another gripper."""
     (runs,) = groups(logs, ("open",))
     drawn, (steps, weights) = sheet(6.2, 2, 1)
-    frequency = np.geomspace(0.5, 80, 100)
     _bands(weights, runs, PRINTED_BAND["6.4"])
+    frequency = MODELLED
     identified_by_finger = each_identified(runs)
     for k, (side, colour, dash) in enumerate(SIDES):
         _steps(steps, runs.time, runs.angles[:, k], colour, dash, side)
         weights.plot(*run_deviation(runs, k), ".", color=colour, ms=3, label=f"{side}, records")
-        bound = _model_deviation(identified_by_finger[k], frequency)
+        bound = model_deviation(identified_by_finger[k], frequency)
         weights.plot(frequency, bound, dash, color=colour, label=f"{side}, models")
         fitted = np.abs(bounding_weight(frequency, bound)(1j * frequency)).ravel()
         weights.plot(frequency, fitted, ":", color=colour, lw=1.2, label=f"{side}, weight")
@@ -115,7 +119,10 @@ def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     """
     both = groups(logs, ("open", "low-speed"))
     spreads = {spread.speed: spread for spread in gripper_speed.kept_errors()}
-    words = (("high speed", BLUE, "-", 5.0), ("low speed", ORANGE, "--", 0.1))
+    words = (
+        ("high speed", BLUE, "-", round(SPEED_LIMIT / REV, 9)),
+        ("low speed", ORANGE, "--", round(LOW_SPEED / REV, 9)),
+    )
     drawn, (steps, weights, errors) = sheet(7.4, 3, 1)
     bins = np.arange(-6, 6.1, 0.75).tolist()
     for runs, (label, colour, dash, speed) in zip(both, words, strict=True):
@@ -162,12 +169,16 @@ def figure_6_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     return drawn
 
 
+ENDS = (5, 95)
+"""Percent of the runs between which a measure is told."""
+
+
 def middle_and_ends(values: Floats, scale: float = 1.0, digits: int = 1) -> str:
-    """Return the median with the 5 and 95 % points, such as ``2.3 [1.9, 2.8]``.
+    """Return the median with the points at `ENDS`, such as ``2.3 [1.9, 2.8]``.
 
     A run that never settles is infinite, so the points are runs and not between them.
     """
-    points = np.percentile(values, (50, 5, 95), method="nearest") / scale
+    points = np.percentile(values, (50, *ENDS), method="nearest") / scale
     middle, low, high = (f"{x:.{digits}f}" if np.isfinite(x) else "never" for x in points)
     return f"{middle} [{low}, {high}]"
 
