@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from book.chapter_6 import filters
 from book.chapter_6.numbers import COMPARED
-from book.companion.claims import printed_text
+from book.companion.claims import claim_of
 from book.companion.exhibit import figure, table
 from book.companion.style import BLUE, GREEN, GREY, ORANGE, PRINTED, PURPLE, VERMILION, sheet
 from softgrip.arrays import Floats
@@ -99,7 +99,9 @@ def figure_6_a() -> Figure:
     for name, colour in zip(FILTERS, (BLUE, ORANGE), strict=True):
         time, difference = apart(name)
         lower.plot(time, difference / DEG, color=colour, label=filters.label(name))
-    lower.axhline(float(printed_text("6.4-measured-transient-difference")), color=GREY, ls=":")
+    lower.axhline(
+        float(claim_of(6, "6.4-measured-transient-difference").printed), color=GREY, ls=":"
+    )
     lower.set(title="(b)", xlabel="time (s)", ylabel="apart (deg)", xlim=(0, 4), ylim=(0, None))
     lower.legend(loc="upper right")
     return drawn
@@ -243,7 +245,7 @@ def table_6_c() -> pd.DataFrame:
                     absolute="deg" in words,
                 )
                 row[words] = f"{settled[0]:.2f}, {settled[1]:.2f}"
-            rows.append(row | {"printed": printed_text(claim)})
+            rows.append(row | {"printed": claim_of(6, claim).printed})
     return pd.DataFrame(rows)
 
 

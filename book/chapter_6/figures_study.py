@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from book.chapter_6 import finger_count
 from book.chapter_6.filters import label
-from book.companion.claims import printed_text
+from book.companion.claims import claim_of
 from book.companion.exhibit import figure, table
 from book.companion.style import (
     BLACK,
@@ -151,7 +151,7 @@ def figure_6_f() -> Figure:
         if np.isfinite(when):
             apart = 100 * found.synchronization[0]
             axes.plot(when, apart, "^", color=CONTROLS[name][0], label=label(name))
-    axes.axvline(float(printed_text("6.4-settling-fast")), color=GREY, ls=":")
+    axes.axvline(float(claim_of(6, "6.4-settling-fast").printed), color=GREY, ls=":")
     axes.set(xlabel="both within 2 % after (s)", ylabel="farthest apart (%)")
     axes.set(xlim=(0.5, 2.6), ylim=(0, None))
     axes.legend(loc="upper right")
