@@ -5,13 +5,15 @@ can be judged. Where one statement holds for many cells of a table, ``printed`` 
 keys to strings, and ``{key}`` in the other fields stands for the key.
 
 Among a claim's arguments a string that is a number is printed, so it is rounded (`Printed`); a
-number is exact. ``@`` and an id stand for what another claim prints. The same file holds the
-assumptions that its claims name, and ``sources.toml`` what the author published elsewhere.
+number is exact. ``@`` and an id stand for what another claim prints; as a claim's own print, they
+hold the claim against that of another in the same file, so that no number is typed twice. The
+file holds the assumptions too that its claims name, and ``sources.toml`` what the author
+published elsewhere.
 """
 
 import tomllib
 from collections.abc import Iterable
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Any, Literal, TypeVar, get_args
@@ -116,6 +118,14 @@ class Claim:
     tolerance: float = 1e-6
     """Relative, of the frozen value: what another machine or library may change."""
     note: str = ""
+    print_of: str = ""
+    """Id of the claim whose print this one is held against, if it has none of its own."""
+
+    @property
+    def stands_on(self) -> set[str]:
+        """Ids of the claims whose prints this one is computed from or held against."""
+        lender = {self.print_of} if self.print_of else set()
+        return references(self.arguments) | lender
 
 
 class Key(str):
@@ -180,6 +190,22 @@ def _claim(row: dict[str, Any], path: Path) -> Claim:
     return _made(Claim, {**row, "basis": Basis(basis)}, path)
 
 
+def _lent(claims: dict[str, Claim], path: Path) -> dict[str, Claim]:
+    """Give the claims that are held against another's print that print."""
+
+    def lent(claim: Claim) -> Claim:
+        if not claim.printed.startswith("@"):
+            return claim
+        lender = claims.get(claim.printed[1:])
+        if lender is None or lender.printed.startswith("@"):
+            raise DataFileError(
+                path, expected="a claim of this file with a print of its own", got=claim.printed
+            )
+        return replace(claim, printed=lender.printed, exact=lender.exact, print_of=lender.id)
+
+    return {id: lent(claim) for id, claim in claims.items()}
+
+
 def _unlike(items: Iterable[Kind], name: str, path: Path) -> dict[str, Kind]:
     found: dict[str, Kind] = {}
     for item in items:
@@ -195,7 +221,8 @@ def _file(path: Path) -> tuple[dict[str, Claim], dict[str, Assumption]]:
     with path.open("rb") as stream:
         read = tomllib.load(stream)
     cells = (cell for row in read["claim"] for cell in _expand(row))
-    claims = _unlike((_claim({**cell, "chapter": chapter}, path) for cell in cells), "id", path)
+    read_in = (_claim({**cell, "chapter": chapter}, path) for cell in cells)
+    claims = _lent(_unlike(read_in, "id", path), path)
     named = (_made(Assumption, row, path) for row in read.get("assumption", []))
     assumptions = _unlike(named, "name", path)
     for claim in claims.values():

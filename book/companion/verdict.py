@@ -20,7 +20,6 @@ from book.companion.claims import (
     assumptions,
     claim_of,
     read_claims,
-    references,
     resolved,
     sources,
 )
@@ -107,7 +106,7 @@ class Entry:
             "band": claim.band.what if claim.band else "",
             "band_values": [[words, _finite(value)] for words, value in self.band],
             "in_band": self.in_band,
-            "stands_on": sorted(references(claim.arguments)),
+            "stands_on": sorted(claim.stands_on),
             "author": f"{source.repository} {source.file} at {source.commit}" if source else "",
             "regardless": claim.regardless,
             "needs": claim.needs,
@@ -270,4 +269,4 @@ def yields(entries: Collection[Entry]) -> list[Yield]:
 
 def stood_on(entries: Collection[Entry]) -> set[str]:
     """Return the ids of the claims whose print another claim is held against."""
-    return set(chain.from_iterable(references(entry.claim.arguments) for entry in entries))
+    return set(chain.from_iterable(entry.claim.stands_on for entry in entries))

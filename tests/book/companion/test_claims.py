@@ -67,6 +67,25 @@ def test_mistakes_are_named(write, text, message):
         read_claims(5)
 
 
+HELD = f'[[claim]]\n{BASE}id = "limit"\nwhat = ""\nprinted = "5"\nexact = true\n'
+
+
+def test_a_claim_may_be_held_against_the_print_of_another(write):
+    write(
+        f'{HELD}[[claim]]\n{BASE}id = "kept"\nwhat = ""\nprinted = "@limit"\n'
+        'arguments = {value = "@reached"}\n'
+    )
+    _, kept = read_claims(5)
+    assert (kept.printed, kept.exact, kept.stands_on) == ("5", True, {"limit", "reached"})
+
+
+@pytest.mark.parametrize("lender", ["nowhere", "kept"])
+def test_a_print_that_is_lent_is_some_claims_own(write, lender):
+    write(f'{HELD}[[claim]]\n{BASE}id = "kept"\nwhat = ""\nprinted = "@{lender}"\n')
+    with pytest.raises(DataFileError, match=f"a print of its own, got @{lender}"):
+        read_claims(5)
+
+
 def test_chapter_without_claims_is_named():
     with pytest.raises(InvalidInputError, match="chapter: expected one with claims"):
         read_claims(99)
