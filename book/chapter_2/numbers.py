@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import combinations
+from math import prod
 
 import numpy as np
 
@@ -37,50 +38,50 @@ def secant_modulus(material: str, strain: float, stress: str = "engineering") ->
     return engineering * shrunk / strain / MPa
 
 
-def cylinder_by_equation(force: str, modulus: float, width: float, height: float) -> float:
-    """Return the deformation of a cylinder, evenly stressed, mm; modulus in MPa, sizes in mm."""
+def cylinder_by_equation(force: float, modulus: float, width: float, height: float) -> float:
+    """Return the deformation of a cylinder, evenly stressed, mm; N, MPa, sizes in mm."""
     element = Element("cylinder", width * MM, height * MM)
-    return shortening(element, _newtons(force), modulus * MPa) / MM
+    return shortening(element, force, modulus * MPa) / MM
 
 
-def hemisphere_by_equation(force: str, modulus: float, width: float, cut: float) -> float:
+def hemisphere_by_equation(force: float, modulus: float, width: float, cut: float) -> float:
     """Return the same of a sphere's half that is cut flat."""
-    return shortening(cut_sphere(cut, width * MM / 2), _newtons(force), modulus * MPa) / MM
+    return shortening(cut_sphere(cut, width * MM / 2), force, modulus * MPa) / MM
 
 
 def pyramid_by_equation(
-    force: str, modulus: float, width: float, height: float, cut: float
+    force: float, modulus: float, width: float, height: float, cut: float
 ) -> float:
     """Return the same of a pyramid that is cut flat."""
     element = Element("pyramid", width * MM, height * MM, cut)
-    return shortening(element, _newtons(force), modulus * MPa) / MM
+    return shortening(element, force, modulus * MPa) / MM
 
 
-def hertzian(force: str, modulus: float, poisson_ratio: float, width: float) -> float:
+def hertzian(force: float, modulus: float, poisson_ratio: float, width: float) -> float:
     """Return Hertz's approach of a hemisphere, with the exponent 2/3 that the print lacks, mm."""
-    found = hertz_approach(_newtons(force), width * MM / 2, modulus * MPa, poisson_ratio)
+    found = hertz_approach(force, width * MM / 2, modulus * MPa, poisson_ratio)
     return found / MM
 
 
 def cylinder_by_finite_elements(
-    force: str, modulus: float, width: float, of: str = "largest"
+    force: float, modulus: float, width: float, of: str = "largest"
 ) -> float:
     """Return the displacement of a cylinder's top, 3 mm high, by finite elements, mm.
 
     Args:
-        force: On the top, "0.1 N" say.
+        force: On the top, N.
         modulus: MPa.
         width: 6 or 10 mm, for which results are kept.
         of: The "mean" or the "largest" displacement, or that of a rigid "plate".
     """
     element = Element("cylinder", width * MM)
-    return fem_deformation(element, _newtons(force), modulus * MPa, of) / MM
+    return fem_deformation(element, force, modulus * MPa, of) / MM
 
 
-def cut_by_finite_elements(force: str, shape: Shape, modulus: float, cut: float) -> float:
+def cut_by_finite_elements(force: float, shape: Shape, modulus: float, cut: float) -> float:
     """Return the largest displacement of the top of an element 6 mm wide and cut flat, mm."""
     by_force = largest_for(shape, cut) * STATED_MODULUS / (modulus * MPa)
-    return by_force * _newtons(force) / MM
+    return by_force * force / MM
 
 
 def least_force_by_deformation(
@@ -97,18 +98,37 @@ def least_force_by_deformation(
 
 
 @simulated
-def ceiling_force(modulus: float) -> float:
-    """Return the force at which the pyramid's resistance has reached 1.5 MOhm, N."""
-    return least_force(ASSUMED["pyramid"], 0.5e6, modulus * MPa)
+def ceiling_force(modulus: float, least: float, largest: float) -> float:
+    """Return the force at which the pyramid's resistance has reached its largest, N.
+
+    Args:
+        modulus: MPa.
+        least, largest: Resistance without load, and under the largest force that is felt, MOhm.
+    """
+    return least_force(ASSUMED["pyramid"], (largest - least) * 1e6, modulus * MPa)
 
 
-def _newtons(force: str) -> float:
-    return float(force.removesuffix(" N"))
+def covered(count: float, element: Sequence[float], pad: Sequence[float]) -> float:
+    """Return the area of elements over that of the pad that they lie in, both by their sides.
+
+    >>> covered(2, element=[1.0, 1.0], pad=[2.0, 4.0])
+    0.25
+    """
+    return count * prod(element) / prod(pad)
 
 
 def converter_rate(clock: float = 16e6, divider: float = 128, cycles: float = 13) -> float:
     """Return the rate of a converter that takes some cycles of a divided clock (Hz), kHz."""
     return clock / divider / cycles / 1e3
+
+
+def conversion_time(pins: Sequence[float], rate: float) -> float:
+    """Return the time, ms, in which a converter (kHz) reads every pin of some groups once.
+
+    >>> conversion_time([1, 8], rate=9.0)
+    1.0
+    """
+    return sum(pins) / rate
 
 
 @simulated
@@ -169,24 +189,29 @@ def mean_deviation(deviations: Mapping[str, float], without: str = "none") -> fl
     return newtons(mean([value for name, value in deviations.items() if name != without]))
 
 
-def points(weights: float, times: float) -> float:
-    """Return the data points: the weights and zero, so many times each."""
-    return (weights + 1) * times
+def points(weights: float, others: Sequence[float], times: float) -> float:
+    """Return the data points: a number of weights and those that are listed, so many times each."""
+    return (weights + len(others)) * times
 
 
 def nearest_weight(
-    weight: float, pieces: Sequence[float], together: float, twice: Sequence[float] = ()
+    weight: float,
+    pieces: Sequence[float],
+    together: Sequence[float],
+    twice: Sequence[float] = (),
 ) -> float:
     """Return what pieces of a set make that is nearest to a weight, gf.
 
     Args:
         weight: That is wanted, gf.
         pieces: Of the set, each once, gf.
-        together: Most pieces that are put together.
+        together: Fewest and most pieces that are put together.
         twice: Pieces of which the set holds a second one.
     """
-    held, counts = (*pieces, *twice), range(1, int(together) + 1)
-    made = {sum(chosen) for count in counts for chosen in combinations(held, count)}
+    held, (fewest, most) = (*pieces, *twice), map(int, together)
+    made = {
+        sum(chosen) for count in range(fewest, most + 1) for chosen in combinations(held, count)
+    }
     return min(sorted(made), key=lambda each: abs(each - weight))
 
 
