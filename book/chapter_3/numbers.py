@@ -1,5 +1,6 @@
 """Recomputation of the numbers printed in Chapter 3."""
 
+from collections.abc import Sequence
 from math import gcd, hypot, nan, pi, sqrt, tanh
 
 import numpy as np
@@ -23,9 +24,9 @@ from softgrip.actuator.design import (
     objective,
 )
 from softgrip.actuator.frequency import natural_frequency, rubber_mass
-from softgrip.actuator.printed import section, table_3_1, table_3_2, table_3_3
+from softgrip.actuator.printed import section, table_3_2, table_3_3
 from softgrip.actuator.section import Section, chamber_area, torque
-from softgrip.control.lqr import FINGER, Weights, linear_settling_time
+from softgrip.control.lqr import Weights, linear_settling_time
 from softgrip.control.lqr import step_response as lqr_response
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.second_order import SecondOrder, step_response
@@ -113,11 +114,27 @@ def section_torque_ratio(name: str) -> float:
     return float(torque(section(name), 1.0) / torque(section("Opt. parameters"), 1.0))
 
 
-def height_limit(end: str, stated: float) -> float:
-    """Return the least or largest height that the sections of Tables 3.1 and 3.2 need, mm."""
-    sections = [*table_3_1().values(), *(row.section for row in table_3_2())]
-    heights = [stated, *(round(float(found.height) / MM, 6) for found in sections)]
+def height_limit(end: str, stated: float, tops: Sequence[float], bottoms: Sequence[float]) -> float:
+    """Return the least or largest height that a + b of some sections needs, in their unit.
+
+    >>> height_limit("largest", stated=25, tops=[20, 22], bottoms=[4, 4])
+    26
+    """
+    heights = [stated, *(top + bottom for top, bottom in zip(tops, bottoms, strict=True))]
     return min(heights) if end == "least" else max(heights)
+
+
+def surpassing(own: Sequence[float], others: Sequence[Sequence[float]]) -> float:
+    """Count the designs that have more of everything than one has.
+
+    Args:
+        own: Metrics of which more is better.
+        others: The same of other designs.
+
+    >>> surpassing([2.0, 3.0], others=[[2.5, 2.0], [2.5, 3.5]])
+    1
+    """
+    return sum(all(b > a for a, b in zip(own, other, strict=True)) for other in others)
 
 
 def step_of_the_optimum() -> float:
@@ -261,15 +278,15 @@ def second_mode_ratio(tip_mass: float) -> float:
     return float((second / first) ** 2)
 
 
+def scale_load(torque: float, length: float) -> float:
+    """Return what a scale at the tip shows under a torque (N m), Eq. (3.24), kg; length in mm."""
+    return torque / (length * MM) / G
+
+
 def prototypes() -> float:
     """Count the distinct fingers of Tables 3.2 and 3.3: sections, and the softer material."""
     made = [(row.section, row.young_modulus) for row in table_3_3().values()]
     return float(len({*made, *((row.section, made[0][1]) for row in table_3_2())}))
-
-
-def variances() -> float:
-    """Count the sections of Table 3.1 beside the optimum."""
-    return float(len(table_3_1()) - 1)
 
 
 @simulated
@@ -279,16 +296,31 @@ def identified_damping() -> float:
 
 
 def lqr_settling(
-    p: float, q2: float, frequency: float, damping_ratio: float, band: float = 0.02
+    p: float,
+    q: tuple[float, float, float],
+    R: float,
+    frequency: float,
+    damping_ratio: float,
+    band: float = 0.02,
 ) -> float:
-    """Return the settling time of the linear loop of Eq. (3.28)-(3.30), s."""
+    """Return the settling time of the linear loop of Eq. (3.28)-(3.30), s.
+
+    Args:
+        p, q, R: Weights of Eq. (3.29), of the three states and of the command.
+        frequency: rad/s.
+        damping_ratio: Dimensionless.
+        band: Share of the step.
+    """
     finger = SecondOrder(frequency, damping_ratio)
-    return linear_settling_time(finger, Weights(p, (1.0, q2, 0.0)), band)
+    return linear_settling_time(finger, Weights(p, q, R), band)
 
 
-def lqr_error() -> float:
-    """Return the steady-state error of the linear loop, percent of the step."""
-    return 100 * abs(1.0 - float(lqr_response(FINGER, Weights())[1][-1]))
+def lqr_error(
+    p: float, q: tuple[float, float, float], R: float, frequency: float, damping_ratio: float
+) -> float:
+    """Return the steady-state error of that loop, percent of the step; inputs as there."""
+    _, response = lqr_response(SecondOrder(frequency, damping_ratio), Weights(p, q, R))
+    return 100 * abs(1.0 - float(response[-1]))
 
 
 @simulated

@@ -150,7 +150,7 @@ def test_poles_and_what_they_are_made_of():
 def test_design_of_the_control_script_rises_in_the_printed_time_and_settles_later():
     time, response = step_response(*SCRIPT)
     assert float(rise_time(time, response, target=1.0)) == pytest.approx(0.80, abs=0.01)
-    settled = [numbers.lqr_settling(2000, 0.1, 1.812, 0.7, band) for band in (0.02, 0.1)]
+    settled = [numbers.lqr_settling(2000, (1, 0.1, 0), 1, 1.812, 0.7, band) for band in (0.02, 0.1)]
     assert settled == pytest.approx([1.36, 1.09], abs=0.005)
 
 
@@ -160,9 +160,27 @@ def test_chamber_that_is_full_weighs_as_the_block():
 
 
 def test_counts_of_the_tables():
-    assert (numbers.prototypes(), numbers.variances(), numbers.step_of_the_optimum()) == (6, 6, 0.5)
-    assert [numbers.height_limit("least", 15), numbers.height_limit("largest", 25)] == [15, 25]
-    assert [numbers.height_limit("least", 19), numbers.height_limit("largest", 23)] == [18.4, 24]
+    assert (numbers.prototypes(), numbers.step_of_the_optimum()) == (6, 0.5)
+
+
+def test_heights_decide_a_limit_that_they_pass():
+    assert numbers.height_limit("least", 15, tops=[20, 14.4], bottoms=[4, 4]) == 15
+    assert numbers.height_limit("least", 19, tops=[20, 14.4], bottoms=[4, 4]) == 18.4
+    assert numbers.height_limit("largest", 23, tops=[20, 14.4], bottoms=[4, 4]) == 24
+
+
+def test_a_design_is_surpassed_only_by_more_of_both():
+    assert numbers.surpassing([0.359, 206], others=[[0.4, 150], [0.3, 300], [0.359, 210]]) == 0
+    assert numbers.surpassing([0.359, 206], others=[[0.4, 207], [0.5, 300], [0.3, 100]]) == 2
+
+
+def test_load_of_the_scale_times_gravity_and_length_is_the_torque():
+    assert numbers.scale_load(0.359, 94) * 9.80665 * 0.094 == pytest.approx(0.359, rel=1e-12)
+
+
+def test_any_weights_leave_no_error():
+    for q, R in (((1.0, 0.3, 0.0), 1.0), ((2.0, 0.0, 0.5), 7.0)):
+        assert numbers.lqr_error(100, q, R, 2.86, 0.7) < 0.01
 
 
 def test_stretch_by_the_other_area_moves_no_corner():
