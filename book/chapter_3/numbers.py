@@ -1,6 +1,6 @@
 """Recomputation of the numbers printed in Chapter 3."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import gcd, hypot, nan, pi, sqrt, tanh
 
 import numpy as np
@@ -44,16 +44,23 @@ def highest_power(power: float) -> float:
     return 1 + 1 / power
 
 
-def section_torque(pressure: float, wall_pulls: bool = False) -> float:
-    """Return the torque of Design 1, N m, at a pressure in MPa.
+def section_torque(
+    pressure: float, section: Mapping[str, float], wall_pulls: bool = False
+) -> float:
+    """Return the torque of a section, N m.
 
     As Eq. (3.4) is printed, the moments of chamber and wall are added; if the wall pulls, the
     second is subtracted.
+
+    Args:
+        pressure: MPa.
+        section: Its dimensions by name, mm.
+        wall_pulls: How the moments are put together.
     """
-    found = section("Opt. parameters")
+    found = Section(**{name: size * MM for name, size in section.items()})
     subtracted = float(torque(found, pressure * MPa))
     chamber = pressure * MPa * chamber_area(found) * (found.top - found.wall) / 2
-    return subtracted if wall_pulls else 2 * chamber - subtracted
+    return subtracted if wall_pulls else float(2 * chamber - subtracted)
 
 
 def objective_sum(

@@ -74,7 +74,7 @@ def _remarks(entry: Entry) -> str:
         _banded(entry),
         _assumed(entry),
         author and f"The author's {claim.author}: {author}.",
-        claim.needs and f"To check it: {claim.needs}",
+        claim.needs and f"To check it: {claim.needs.rstrip('.')}.",
         claim.note,
     ]
     text = html.escape(" ".join(filter(None, parts)))

@@ -214,8 +214,8 @@ def judge(claim: Claim) -> Entry:
     if swept := claim.band:
         cases = swept.cases or tuple({swept.argument: value} for value in swept.values)
         band = tuple(
-            (", ".join(map(str, case.values())), float(function(**judged | resolved(case))))
-            for case in cases
+            (", ".join(map(str, inputs.values())), float(function(**judged | inputs)))
+            for inputs in map(resolved, cases)
         )
     assumed = assume and claim.basis is not Basis.ASSUMPTION
     named = assumptions(claim.chapter).get(claim.assumption)

@@ -100,7 +100,10 @@ def test_narrower_finger_is_weaker_by_its_torque():
 
 def test_wall_pulls_as_in_the_check_script():
     """Which gives 0.305816 N m at 0.15 MPa."""
-    assert numbers.section_torque(0.15, wall_pulls=True) == pytest.approx(0.305816, abs=5e-7)
+    section = {"top": 20, "bottom": 4, "width": 30, "wall": 1.5}
+    assert numbers.section_torque(0.15, section, wall_pulls=True) == pytest.approx(
+        0.305816, abs=5e-7
+    )
 
 
 def test_scaled_frequency_is_that_of_the_formula_whatever_the_power():
