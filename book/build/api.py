@@ -66,8 +66,14 @@ def skip(_app: Sphinx, what: str, name: str, found: object, _skip: bool, _: obje
     return True if (what == "module" and alias) or name in INHERITED else None
 
 
+def know_elsewhere(_app: Sphinx, config: Any) -> None:
+    """Let docstrings name what is documented in another project (YAML has no pairs)."""
+    config.nitpick_ignore = [("py:exc", "sklearn.exceptions.NotFittedError")]
+
+
 def setup(app: Sphinx) -> None:
     """Add the directive."""
+    app.connect("config-inited", know_elsewhere)
     app.setup_extension("sphinx.ext.autodoc")
     app.add_directive("api", Api)
     app.connect("autodoc-process-docstring", read_sections)
