@@ -22,13 +22,6 @@ settings.register_profile("no clock", deadline=None, suppress_health_check=[Heal
 settings.load_profile("no clock")
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Keep a file's tests, and all those of the built book, with one of several processes."""
-    for item in items:
-        one = "book" if item.get_closest_marker("book") else item.nodeid.partition("::")[0]
-        item.add_marker(pytest.mark.xdist_group(one))
-
-
 @pytest.fixture(scope="session")
 def root() -> Path:
     return ROOT

@@ -5,7 +5,6 @@ import re
 from collections import Counter
 
 import pytest
-from bs4 import BeautifulSoup
 
 from book.build.equations import NUMBERS, owners, pairs
 from book.build.tracing import ROOT
@@ -46,29 +45,3 @@ def test_each_is_named_by_a_test_whose_file_uses_the_owner(number):
     }
     # A method is called on what the file makes; a class may be made by another function.
     assert used & set(owner.name.split(".")), (owner, test)
-
-
-@pytest.mark.book
-@pytest.mark.book
-def test_each_has_its_links_and_its_row(html):
-    rows = BeautifulSoup((html / "equations.html").read_text(), "html.parser").select(
-        "table.equations tbody tr"
-    )
-    assert [row.td.text.strip() for row in rows] == [f"Eq. ({number})" for number in NUMBERS]
-    sources = {}
-    for chapter in html.glob("chapter-*.html"):
-        soup = BeautifulSoup(chapter.read_text(), "html.parser")
-        for block in soup.select("div.math[id^=equation-eq-]"):
-            number = block["id"].removeprefix("equation-eq-").replace("-", ".")
-            links = block.find_next_sibling("p")
-            assert links["class"] == ["equation-links"], number
-            assert [link.text for link in links("a")] == ["code", "test"], number
-            for link, place in zip(links("a"), pairs()[number], strict=True):
-                file, _, name = link["href"].partition("#")
-                page = sources.setdefault(
-                    file, BeautifulSoup((html / file).read_text(), "html.parser")
-                )
-                assert name == place.name
-                assert place.name.split(".")[-1] in page.find(id=name).text, number
-            rows.remove(next(row for row in rows if f"({number})" in row.td.text))
-    assert rows == []

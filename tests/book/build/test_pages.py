@@ -8,6 +8,8 @@ import jupytext
 import pytest
 from bs4 import BeautifulSoup
 
+from book.build.equations import NUMBERS, pairs
+
 pytestmark = pytest.mark.book
 
 # Said by the theme on every page that is read from a disk; both are harmless.
@@ -184,3 +186,27 @@ def test_chapters_open_as_notebooks(root):
         if cells := file.read_text().count("```{code-cell}"):
             found = [cell for cell in jupytext.read(file).cells if cell.cell_type == "code"]
             assert len(found) == cells, file.name
+
+
+def test_each_equation_has_its_links_and_its_row(html):
+    rows = BeautifulSoup((html / "equations.html").read_text(), "html.parser").select(
+        "table.equations tbody tr"
+    )
+    assert [row.td.text.strip() for row in rows] == [f"Eq. ({number})" for number in NUMBERS]
+    sources = {}
+    for chapter in html.glob("chapter-*.html"):
+        soup = BeautifulSoup(chapter.read_text(), "html.parser")
+        for block in soup.select("div.math[id^=equation-eq-]"):
+            number = block["id"].removeprefix("equation-eq-").replace("-", ".")
+            links = block.find_next_sibling("p")
+            assert links["class"] == ["equation-links"], number
+            assert [link.text for link in links("a")] == ["code", "test"], number
+            for link, place in zip(links("a"), pairs()[number], strict=True):
+                file, _, name = link["href"].partition("#")
+                page = sources.setdefault(
+                    file, BeautifulSoup((html / file).read_text(), "html.parser")
+                )
+                assert name == place.name
+                assert place.name.split(".")[-1] in page.find(id=name).text, number
+            rows.remove(next(row for row in rows if f"({number})" in row.td.text))
+    assert rows == []
