@@ -68,7 +68,9 @@ def _banded(entry: Entry) -> str:
 
 def _remarks(entry: Entry) -> str:
     claim, author = entry.claim, entry.record()["author"]
-    used = ", ".join(f'<a href="#claim-{name}">{name}</a>' for name in sorted(claim.stands_on))
+    used = ", ".join(
+        f'<a href="ledger.html#claim-{name}">{name}</a>' for name in sorted(claim.stands_on)
+    )
     parts = [
         claim.regardless,
         _banded(entry),
