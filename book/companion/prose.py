@@ -1,8 +1,8 @@
 """Numbers in prose: computed, or those that a claim prints, and never typed.
 
-A chapter's module ``prose`` has a table ``WORDS``: for each name what makes the text. A caption has
-``{{ name }}`` in the place of a number, a page ``{glue:text}`name```. What a claim prints is
-``{{ @id }}`` in a caption, ``{claim}`id``` in a page.
+The module ``prose`` of a page's room (a chapter's, or another by its name) has a table ``WORDS``:
+for each name what makes the text. A caption has ``{{ name }}`` in the place of a number, a page
+``{glue:text}`name```. What a claim prints is ``{{ @id }}`` in a caption, ``{claim}`id``` in a page.
 """
 
 from collections.abc import Callable, Mapping
@@ -13,32 +13,37 @@ from book.companion.claims import printed_text
 from softgrip.errors import UnknownNameError
 
 
-def words(chapter: int | str) -> Mapping[str, Callable[[], str]]:
-    """Return what makes the text of each computed number in a chapter's prose, by name."""
-    made: Mapping[str, Callable[[], str]] = import_module(f"book.chapter_{chapter}.prose").WORDS
+def words(page: int | str) -> Mapping[str, Callable[[], str]]:
+    """Return what makes the text of each computed number in a page's prose, by name.
+
+    Args:
+        page: A chapter's number, or a room of the book, such as "author".
+    """
+    room = f"chapter_{page}" if str(page).isdigit() else page
+    made: Mapping[str, Callable[[], str]] = import_module(f"book.{room}.prose").WORDS
     return made
 
 
 @cache
-def _computed(chapter: int | str, name: str) -> str:
-    known = words(chapter)
+def _computed(page: int | str, name: str) -> str:
+    known = words(page)
     if name not in known:
-        raise UnknownNameError(f"number in the prose of Chapter {chapter}", name, list(known))
+        raise UnknownNameError(f"number in the prose of page {page}", name, list(known))
     return known[name]()
 
 
-def word(chapter: int | str, name: str) -> str:
+def word(page: int | str, name: str) -> str:
     """Return the text of a number by its name, or what a claim prints by ``@`` and its id.
 
     Raises:
         UnknownNameError: If there is no such number or claim; the message lists those there are.
     """
-    return printed_text(name[1:]) if name.startswith("@") else _computed(chapter, name)
+    return printed_text(name[1:]) if name.startswith("@") else _computed(page, name)
 
 
-def tell(chapter: int) -> None:
-    """Make the computed numbers of a chapter known to its page."""
+def tell(page: int | str) -> None:
+    """Make the computed numbers of a page known to it."""
     from myst_nb import glue  # brings Sphinx, which captions do not need
 
-    for name in words(chapter):
-        glue(name, word(chapter, name), display=False)
+    for name in words(page):
+        glue(name, word(page, name), display=False)
