@@ -1,7 +1,7 @@
 """Relations between printed numbers: what claims name that hold one print against another."""
 
 from collections.abc import Sequence
-from math import pi, prod
+from math import pi
 
 from book.companion.claims import read_claims
 
@@ -28,11 +28,6 @@ def ratio(part: float, whole: float, scale: float = 1.0) -> float:
     6.833
     """
     return scale * part / whole
-
-
-def multiplied(factors: Sequence[float], scale: float = 1.0) -> float:
-    """Return a product."""
-    return prod(factors) * scale
 
 
 def scaled(value: float, part: float, whole: float) -> float:
@@ -100,11 +95,6 @@ def largest_change(after: Sequence[float], before: Sequence[float]) -> float:
 def degrees(radians: float) -> float:
     """Convert an angle."""
     return radians * 180 / pi
-
-
-def per_second(hertz: float) -> float:
-    """Convert a frequency to rad/s."""
-    return 2 * pi * hertz
 
 
 def nearest_share(percent: float, whole: float) -> float:

@@ -8,7 +8,6 @@ from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from enum import StrEnum
 from importlib import import_module
-from itertools import chain
 from math import isfinite
 from typing import Any, TypeVar
 
@@ -265,8 +264,3 @@ def yields(entries: Collection[Entry]) -> list[Yield]:
             out = sum(entry.outcome is Outcome.REPRODUCED for entry in free)
             result.append(Yield(assumption, len(assumption.fitted_to), out, len(free)))
     return result
-
-
-def stood_on(entries: Collection[Entry]) -> set[str]:
-    """Return the ids of the claims whose print another claim is held against."""
-    return set(chain.from_iterable(entry.claim.stands_on for entry in entries))

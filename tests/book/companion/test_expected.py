@@ -59,3 +59,10 @@ def test_what_an_assumption_was_fitted_to_is_a_claim(entries):
     for entry in entries:
         if entry.assumption:
             assert set(entry.assumption.fitted_to) <= known, entry.assumption.name
+
+
+def test_what_is_given_says_what_would_be_needed_and_few_stand_alone(entries):
+    given = [entry.claim for entry in entries if entry.outcome == "given"]
+    assert [claim.id for claim in given if not claim.needs] == []
+    held_against = set().union(*(entry.claim.stands_on for entry in entries))
+    assert len({claim.id for claim in given} - held_against) <= 90
