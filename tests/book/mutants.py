@@ -3,7 +3,8 @@
 ``python -m tests.book.mutants --count 200 --seed 1`` draws that many changes among all functions of
 ``book.chapter_N.numbers``, ``book.companion.relations`` and the laws of ``softgrip`` that a claim
 reaches. Each is put in the place of the sound one in a process of its own, and the quickest claims
-that reach it are judged. What changes neither an outcome nor a value has survived, and is listed.
+that reach it are judged. What changes neither an outcome nor a value has survived: a claim may be
+missing, the change may make no difference, or it is for the function's own tests to notice.
 """
 
 import argparse
@@ -172,13 +173,11 @@ def main() -> None:
     print(f"{len(every)} mutants of {len(by)} functions, {len(drawn)} drawn", flush=True)
     survivors = 0
     for mutant, claims in drawn:
-        if in_process(killed, mutant, claims[:TRIED], wait=WITHIN) is False:
-            survivors += 1
-            tried = ", ".join(claim.id for claim in claims[:TRIED])
-            print(
-                f"{mutant.module}.{mutant.name}: {mutant.was} -> {mutant.now}  ({tried})",
-                flush=True,
-            )
+        survived = in_process(killed, mutant, claims[:TRIED], wait=WITHIN) is False
+        survivors += survived
+        place = f"{mutant.module}.{mutant.name}: {mutant.was} -> {mutant.now}"
+        fate = "SURVIVED" if survived else "noticed "
+        print(fate, place, *(claim.id for claim in claims[:TRIED]), sep="  ", flush=True)
     print(f"{survivors} of {len(drawn)} survived")
 
 
