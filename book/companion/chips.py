@@ -5,9 +5,11 @@ from collections import Counter
 from dataclasses import dataclass
 from math import inf
 
+import pandas as pd
+
 from book.companion.claims import Basis, read_claims, references
 from book.companion.errata import Erratum, errata
-from book.companion.markdown import Markdown
+from book.companion.markdown import Markdown, markdown_table
 from book.companion.slips import ASSUMPTION, PRINT, RESULT, Change
 from book.companion.verdict import Entry, Outcome, any_meets, ledger, yields
 
@@ -180,43 +182,39 @@ def errata_table(found: list[Erratum]) -> str:
     )
 
 
+def _counted(entries: list[Entry], name: str, keys: list[tuple[object, str]]) -> pd.DataFrame:
+    """Count outcomes by a property of the claims, for the values of it that are named."""
+    rows = []
+    for key, words in keys:
+        count = Counter(e.outcome for e in entries if getattr(e.claim, name) == key)
+        rows.append({name: words, **{str(o): count[o] for o in Outcome}, "claims": count.total()})
+    return pd.DataFrame(rows)
+
+
 def counts_table(entries: list[Entry]) -> str:
     """Return the counts by chapter and outcome as a Markdown table."""
-    lines = [
-        "| chapter | " + " | ".join(Outcome) + " | claims |",
-        "|---" * (len(Outcome) + 2) + "|",
-    ]
-    for chapter in sorted({entry.claim.chapter for entry in entries}):
-        count = Counter(e.outcome for e in entries if e.claim.chapter == chapter)
-        cells = [str(count[outcome]) for outcome in Outcome]
-        lines.append(f"| {chapter} | " + " | ".join(cells) + f" | {count.total()} |")
-    return "\n".join(lines)
+    chapters = sorted({entry.claim.chapter for entry in entries})
+    return markdown_table(_counted(entries, "chapter", [(n, str(n)) for n in chapters]))
 
 
 def basis_table(entries: list[Entry]) -> str:
     """Return the counts by basis and outcome as a Markdown table."""
-    lines = ["| basis | " + " | ".join(Outcome) + " |", "|---" * (len(Outcome) + 1) + "|"]
-    for basis in Basis:
-        count = Counter(entry.outcome for entry in entries if entry.basis is basis)
-        if count:
-            cells = [str(count[outcome]) for outcome in Outcome]
-            lines.append(f"| {basis or 'none'} | " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+    return markdown_table(_counted(entries, "basis", [(basis, basis or "none") for basis in Basis]))
 
 
 def assumptions_table(entries: list[Entry]) -> str:
     """Return the assumptions that judge, with what each was fitted to and what it brings out."""
-    lines = [
-        "| assumption | fitted to | brings out | of others | readings tried |",
-        "|---" * 5 + "|",
+    rows = [
+        {
+            "assumption": found.assumption.text.replace("|", "\\|"),
+            "fitted to": found.fitted,
+            "brings out": found.brings_out,
+            "of others": found.of,
+            "readings tried": found.assumption.tries,
+        }
+        for found in yields(entries)
     ]
-    for found in yields(entries):
-        words = found.assumption.text.replace("|", "\\|")
-        lines.append(
-            f"| {words} | {found.fitted} | {found.brings_out} | {found.of} "
-            f"| {found.assumption.tries} |"
-        )
-    return "\n".join(lines)
+    return markdown_table(pd.DataFrame(rows))
 
 
 @dataclass(frozen=True)
