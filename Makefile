@@ -36,7 +36,7 @@ book: $(READY)  ## build the book: book/_build/html/index.html
 	@echo "The book: file://$(CURDIR)/book/_build/html/index.html"
 
 test: $(READY)  ## run the tests; those of the pages build the book and open it in Chromium
-	@$(BIN)/python -m pytest -n auto --dist loadfile
+	@$(BIN)/python -m pytest -n auto --dist loadfile --no-loadscope-reorder
 
 lint: $(READY)  ## check style, types and the direction of imports
 	@$(BIN)/ruff check .

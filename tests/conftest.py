@@ -1,6 +1,7 @@
 """What all tests share: where the public data lie, the project's root, no deadlines."""
 
 import os
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -20,6 +21,17 @@ for variable, name in (("SOFTGRIP_MATERIALS_DIR", "materials"), ("SOFTGRIP_AUTHO
 # the machine busy.
 settings.register_profile("no clock", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("no clock")
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with what takes longest, so that no processor waits for it in the end.
+
+    The book first, then the files with most tests: processes take whole files, in this order.
+    """
+    tests = Counter(item.path for item in items)
+    longest = [item.path for item in items if item.get_closest_marker("book")]
+    items.sort(key=lambda item: (item.path not in longest, -tests[item.path]))
 
 
 @pytest.fixture(scope="session")
