@@ -155,7 +155,9 @@ def _erratum(erratum: Erratum, ids: set[str]) -> str:
     claim, spread = erratum.entry.claim, erratum.entry.spread
     unit = "" if claim.unit == "1" else f" {claim.unit}"
     sign = "" if claim.relation == "=" else f"{claim.relation} "
-    used = _linked(" , ".join(sorted(references(claim.arguments))), ids).replace(" ,", ",")
+    used = _linked(" , ".join(sorted(references(claim.arguments) - {claim.id})), ids).replace(
+        " ,", ","
+    )
     value = _range(spread.low, spread.high) if spread else ""
     return (
         f'<tr><td><a href="ledger.html#claim-{claim.id}">{html.escape(claim.what)}</a>'

@@ -123,9 +123,9 @@ class Claim:
 
     @property
     def stands_on(self) -> set[str]:
-        """Ids of the claims whose prints this one is computed from or held against."""
+        """Ids of the other claims whose prints this one is computed from or held against."""
         lender = {self.print_of} if self.print_of else set()
-        return references(self.arguments) | lender
+        return (references(self.arguments) | lender) - {self.id}
 
 
 class Key(str):

@@ -79,6 +79,11 @@ def test_a_claim_may_be_held_against_the_print_of_another(write):
     assert (kept.printed, kept.exact, kept.stands_on) == ("5", True, {"limit", "reached"})
 
 
+def test_a_claim_that_needs_its_own_print_does_not_stand_on_itself(write):
+    write(f'{HELD}arguments = {{stated = "@limit", reached = ["@other"]}}\n')
+    assert read_claims(5)[0].stands_on == {"other"}
+
+
 @pytest.mark.parametrize("lender", ["nowhere", "kept"])
 def test_a_print_that_is_lent_is_some_claims_own(write, lender):
     write(f'{HELD}[[claim]]\n{BASE}id = "kept"\nwhat = ""\nprinted = "@{lender}"\n')
