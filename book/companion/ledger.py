@@ -65,7 +65,7 @@ def write_csv(path: Path, entries: list[Entry]) -> None:
         writer.writeheader()
         for record in records:
             writer.writerow(
-                {n: json.dumps(v) if isinstance(v, list) else v for n, v in record.items()}
+                {n: json.dumps(v) if isinstance(v, list | dict) else v for n, v in record.items()}
             )
 
 

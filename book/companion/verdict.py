@@ -92,12 +92,15 @@ class Entry:
             "unit": claim.unit,
             "relation": claim.relation,
             "printed": claim.printed,
+            "exact": claim.exact,
             "outcome": str(self.outcome),
             "basis": str(self.basis),
             "nature": claim.nature,
             "value": _finite(spread.value) if spread else None,
             "low": _finite(spread.low) if spread else None,
             "high": _finite(spread.high) if spread else None,
+            "inputs": claim.arguments,
+            "assumed": claim.assume,
             "assumption": assumed.text if assumed else "",
             "fitted_to": [*assumed.fitted_to] if assumed else [],
             "tries": assumed.tries if assumed else 0,
@@ -183,6 +186,10 @@ def _check(claim: Claim, function: Callable[..., float]) -> None:
         ),
         "a source on the basis 'author' and nowhere else": (
             (claim.basis is Basis.AUTHOR) == bool(claim.author)
+        ),
+        "what is assumed not among the stated inputs, unless the basis is 'assumption'": (
+            claim.basis is Basis.ASSUMPTION
+            or claim.assume.items().isdisjoint(claim.arguments.items())
         ),
         "nothing 'regardless' on an assumption or the rig": (
             not claim.regardless or claim.basis not in (Basis.ASSUMPTION, Basis.RIG)

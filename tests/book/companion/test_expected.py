@@ -37,8 +37,9 @@ def test_table_has_a_row_for_each_claim_and_the_published_columns(entries, tmp_p
     head, *rows = (tmp_path / "ledger.csv").read_text(encoding="utf-8").splitlines()
     assert len(rows) >= len(entries)
     assert {
-        "id", "chapter", "where", "what", "unit", "printed", "outcome", "basis", "value", "low",
-        "high", "assumption", "fitted_to", "under_assumption", "band", "note", "function",
+        "id", "chapter", "where", "what", "unit", "printed", "exact", "outcome", "basis", "value",
+        "low", "high", "inputs", "assumed", "assumption", "fitted_to", "under_assumption", "band",
+        "note", "function",
     } <= set(head.split(","))  # fmt: skip
 
 

@@ -124,6 +124,7 @@ def test_simulated_value_stands_on_the_rig_and_never_reproduces(monkeypatch):
         ({"function": ""}, "a function that recomputes it"),
         ({"basis": ""}, "a basis"),
         ({"assume": {"x": 1.0}}, "assume and an assumption's name together"),
+        ({"assume": {"x": 2.37}, "assumption": "half"}, "assumed not among the stated inputs"),
         ({"author": "design script"}, "a source on the basis 'author'"),
         ({"basis": "assumption", "regardless": "so"}, "nothing 'regardless' on an assumption"),
     ],
