@@ -236,8 +236,9 @@ def brings_out(entry, change: Change) -> bool:
         assert once or sorted(text) == sorted(claim.printed)
         return meets(replace(claim, printed=text), spread.low, spread.high)
     if change.does == "cut, not rounded":
-        beyond = abs(spread.value) - abs(float(claim.printed))
-        return -1e-9 <= beyond < 2 * Printed(claim.printed).half
+        least, largest = sorted(map(abs, (spread.low, spread.high)))
+        number = Printed(claim.printed)
+        return least < abs(number) + 2 * number.half and largest >= abs(number) - 1e-9
     if change.of == RESULT:
         ends = [applied(value, change.does) for value in (spread.low, spread.high)]
         return meets(claim, min(ends), max(ends))
