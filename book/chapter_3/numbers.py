@@ -1,13 +1,12 @@
 """Recomputation of the numbers printed in Chapter 3."""
 
 from collections.abc import Mapping, Sequence
-from math import gcd, hypot, nan, pi, sqrt, tanh
+from math import hypot, nan, pi, sqrt, tanh
 
 import numpy as np
 from scipy.optimize import brentq
 
 from book.chapter_3.stepped import identified_row
-from book.chapter_3.torque_and_bending import LENGTH
 from book.chapter_4.identified_model import identified_model
 from book.companion.relations import ratio
 from book.companion.verdict import simulated
@@ -24,7 +23,7 @@ from softgrip.actuator.design import (
     objective,
 )
 from softgrip.actuator.frequency import natural_frequency, rubber_mass
-from softgrip.actuator.printed import section, table_3_2, table_3_3
+from softgrip.actuator.printed import table_3_2, table_3_3
 from softgrip.actuator.section import Section, chamber_area, torque
 from softgrip.control.lqr import Weights, linear_settling_time
 from softgrip.control.lqr import step_response as lqr_response
@@ -35,13 +34,15 @@ from softgrip.provenance import data_file
 from softgrip.units import DEG, MM, MPa
 
 G = 9.80665
-DENSITY = {"Design 1(E1)": 1080.0, "Design 2(E1)": 1080.0, "Design 3(E2)": 1060.0}
-"""Of the cured rubber, kg/m^3, from the supplier's data sheets (the dissertation has none)."""
 
 
 def highest_power(power: float) -> float:
     """Return the highest power of the pressure in Eq. (3.10), T being proportional to it."""
     return 1 + 1 / power
+
+
+def _section(sizes: Mapping[str, float]) -> Section:
+    return Section(**{name: size * MM for name, size in sizes.items()})
 
 
 def section_torque(
@@ -57,21 +58,21 @@ def section_torque(
         section: Its dimensions by name, mm.
         wall_pulls: How the moments are put together.
     """
-    found = Section(**{name: size * MM for name, size in section.items()})
+    found = _section(section)
     subtracted = float(torque(found, pressure * MPa))
     chamber = pressure * MPa * chamber_area(found) * (found.top - found.wall) / 2
     return subtracted if wall_pulls else float(2 * chamber - subtracted)
 
 
 def objective_sum(
-    name: str,
+    section: Mapping[str, float],
     power: float,
     pressure: float,
     modulus: float,
     torque_scale: float,
     angle_scale: float,
 ) -> float:
-    """Return the sum of Eq. (3.20) for a section of Table 3.1; MPa, N m, and parts of pi."""
+    """Return the sum of Eq. (3.20) for a section, mm by name; MPa, N m, and parts of pi."""
     problem = DesignProblem(
         pressure * MPa,
         modulus * MPa,
@@ -79,7 +80,7 @@ def objective_sum(
         torque_scale=torque_scale,
         angle_scale=angle_scale * pi,
     )
-    return float(objective(problem, section(name)))
+    return float(objective(problem, _section(section)))
 
 
 def angle_left(
@@ -102,7 +103,7 @@ def sum_of_measured(
     torque_scale: float,
     angle_scale: float,
     share: float = 1.0,
-    section_name: str = "Opt. parameters",
+    weaker: Mapping[str, float] | None = None,
 ) -> float:
     """Return the sum of Eq. (3.20) from a measured torque, N m, and an angle, deg.
 
@@ -110,15 +111,21 @@ def sum_of_measured(
         torque, angle: As printed.
         torque_scale, angle_scale: N m, and a part of pi.
         share: Of the torque that there is at the pressure of the angle.
-        section_name: Whose torque it is by Eq. (3.4), where that of the optimum is printed.
+        weaker: Arguments of `width_torque_ratio`, where the torque of a wider finger is printed.
     """
-    weaker = section_torque_ratio(section_name)
-    return torque * share * weaker / torque_scale + angle * DEG / (angle_scale * pi)
+    own = torque * share * (width_torque_ratio(**weaker) if weaker else 1.0)
+    return own / torque_scale + angle * DEG / (angle_scale * pi)
 
 
-def section_torque_ratio(name: str) -> float:
-    """Return the torque of a section of Table 3.1 over that of the optimum, by Eq. (3.4)."""
-    return float(torque(section(name), 1.0) / torque(section("Opt. parameters"), 1.0))
+def width_torque_ratio(
+    width: float, of_width: float, top: float, bottom: float, wall: float
+) -> float:
+    """Return the torque of a section over that of one of another width, by Eq. (3.4); mm."""
+    own, other = (
+        _section({"top": top, "bottom": bottom, "width": w, "wall": wall})
+        for w in (width, of_width)
+    )
+    return float(torque(own, 1.0) / torque(other, 1.0))
 
 
 def height_limit(end: str, stated: float, tops: Sequence[float], bottoms: Sequence[float]) -> float:
@@ -144,49 +151,41 @@ def surpassing(own: Sequence[float], others: Sequence[Sequence[float]]) -> float
     return sum(all(b > a for a, b in zip(own, other, strict=True)) for other in others)
 
 
-def step_of_the_optimum() -> float:
-    """Return the largest step, in whole 0.01 mm, that divides the optimum of Table 3.1, mm."""
-    best = section("Opt. parameters")
-    sizes = (best.top, best.bottom, best.width, best.wall)
-    return gcd(*(round(float(size) / MM * 100) for size in sizes)) / 100
+def off_integers(sizes: Sequence[float]) -> float:
+    """Return the largest distance of a number from the nearest integer.
 
-
-def _number(row: str) -> int:
-    """Return the number in "row 1": a bare number would be read as printed, and so as rounded."""
-    return int(row.removeprefix("row "))
+    >>> off_integers([4.0, 1.75])
+    0.25
+    """
+    return max(abs(size - round(size)) for size in sizes)
 
 
 def optimum(
     name: str,
-    row: str = "",
+    band: Sequence[float] | None = None,
     power: float = SCRIPT_POWER,
     mass: float = SCRIPT_MASS,
     combined: Combined = "product",
     bottom_limit: float = 4.0,
     height_limit: float = 24.0,
-    highest: float | None = None,
 ) -> float:
     """Return a dimension of the best section, mm, proved to be the best; by default his script's.
 
     Args:
         name: Of the dimension.
-        row: Of Table 3.2, "row 1" to "row 4", whose band the frequency keeps; none for Table 3.1.
+        band: That the frequency keeps, as in Table 3.2, rad/s; none for Table 3.1.
         power: n.
         mass: M_1 = M_2, kg.
         combined: Product or sum of torque and angle, at 0.15 MPa.
         bottom_limit: Largest b, mm.
         height_limit: Largest a + b, mm.
-        highest: Upper end of the band, if not that of the row, rad/s.
 
     Returns:
         float: NaN if no section keeps the band.
     """
     bounds = Bounds(bottom=(2 * MM, bottom_limit * MM), height=(18 * MM, height_limit * MM))
-    band = None
-    if row:
-        printed = table_3_2()[_number(row) - 1]
-        band = FrequencyBand(printed.low, highest or printed.high, mass, mass)
-    problem = DesignProblem(fractional_power=power, bounds=bounds, band=band, combined=combined)
+    kept = FrequencyBand(band[0], band[1], mass, mass) if band else None
+    problem = DesignProblem(fractional_power=power, bounds=bounds, band=kept, combined=combined)
     try:
         return float(getattr(certified_design(problem).design.section, name)) / MM
     except InfeasibleDesignError:
@@ -195,39 +194,51 @@ def optimum(
 
 @simulated
 def stepped_frequency(row: str) -> float:
-    """Return what second-order identification says of simulated steps to 60 deg, rad/s."""
-    return identified_row(_number(row)).natural_frequency.value
+    """Return what second-order identification says of simulated steps to 60 deg, rad/s.
+
+    `row` is "row 1" to "row 4" of Table 3.2: a bare number would be read as printed.
+    """
+    return identified_row(int(row.removeprefix("row "))).natural_frequency.value
 
 
-def rubber_weight(design: str, filled: float = 0.0) -> float:
-    """Return the weight of the rubber over the length, N, with a part of the chamber filled."""
-    found, density = table_3_3()[design].section, DENSITY[design]
-    inside = filled * density * LENGTH * float(chamber_area(found))
-    return G * (float(rubber_mass(found, LENGTH, density)) + inside)
+def rubber_weight(
+    section: Mapping[str, float], length: float, density: float, filled: float = 0.0
+) -> float:
+    """Return the weight of the rubber of a finger, N, with a part of the chamber filled.
+
+    Args:
+        section: Its dimensions by name, mm.
+        length: mm.
+        density: kg/m^3.
+        filled: Part of the chamber.
+    """
+    found = _section(section)
+    inside = filled * density * length * MM * float(chamber_area(found))
+    return G * (float(rubber_mass(found, length * MM, density)) + inside)
 
 
 def frequency_at(
     top: float,
     bottom: float,
+    width: float,
     power: float,
     mass: float,
-    modulus: float = 0.34,
-    length: float = 94.0,
+    modulus: float,
+    length: float,
     newtons: bool = False,
 ) -> float:
-    """Return omega_n of Eq. (3.16), rad/s, for a and b in mm, the rest as in the optimum.
+    """Return omega_n of Eq. (3.16), rad/s.
 
     Args:
-        top, bottom: a and b, mm.
+        top, bottom, width: a, b and w, mm; the wall does not enter.
         power: n.
         mass: M, kg, or N if `newtons`.
         modulus: E, MPa.
         length: L, mm.
         newtons: Whether M is a weight.
     """
-    best = section("Opt. parameters")
-    changed = Section(top * MM, bottom * MM, best.width, best.wall)
-    finger = Finger(changed, length * MM, modulus * MPa, power)
+    sizes = _section({"top": top, "bottom": bottom, "width": width, "wall": 0.0})
+    finger = Finger(sizes, length * MM, modulus * MPa, power)
     return float(natural_frequency(finger, mass / G if newtons else mass))
 
 
@@ -291,7 +302,10 @@ def scale_load(torque: float, length: float) -> float:
 
 
 def prototypes() -> float:
-    """Count the distinct fingers of Tables 3.2 and 3.3: sections, and the softer material."""
+    """Count the distinct fingers of Tables 3.2 and 3.3: sections, and the softer material.
+
+    A count of prints: what they were rounded from does not matter to it.
+    """
     made = [(row.section, row.young_modulus) for row in table_3_3().values()]
     return float(len({*made, *((row.section, made[0][1]) for row in table_3_2())}))
 

@@ -59,6 +59,12 @@ from softgrip.materials.table import material
 from softgrip.units import DEG, MM, MPa
 
 
+def _top(row: int) -> float:
+    """Return a of the best section for the band of a row of Table 3.2, mm."""
+    band = table_3_2()[row - 1]
+    return best("top", (band.low, band.high))
+
+
 def _pushed() -> list[float]:
     """Return the torques of Table 3.1, N m, where their lines end."""
     return [float(torque(section, PUSHED_TO)) for section in table_3_1().values()]
@@ -112,10 +118,10 @@ WORDS = {
     "rubber_sum": lambda: f"{_sum(material('Dragon Skin 20').fractional_power):.2f}",
     "tube": lambda: f"{100 * (1 - 2 * Elastic().poisson_ratio):.0f}",
     # Table 3.2.
-    "top_2": lambda: f"{best('top', 'row 2'):.2f}",
-    "top_3": lambda: f"{best('top', 'row 3'):.2f}",
-    "top_3_below": lambda: f"{best('top', 'row 3', highest=table_3_2()[2].low):.2f}",
-    "top_4": lambda: f"{best('top', 'row 4'):.2f}",
+    "top_2": lambda: f"{_top(2):.2f}",
+    "top_3": lambda: f"{_top(3):.2f}",
+    "top_3_below": lambda: f"{best('top', [table_3_2()[2].low] * 2):.2f}",
+    "top_4": lambda: f"{_top(4):.2f}",
     "confidence": lambda: f"{100 * CONFIDENCE:g}",
     # Figures 3.5 and 3.9.
     "pushed_least": lambda: f"{min(_pushed()):.2f}",

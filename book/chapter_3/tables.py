@@ -1,11 +1,14 @@
 """Tables of Chapter 3."""
 
+from math import nan
+
 import pandas as pd
 
-from book.chapter_3.numbers import G, optimum, rubber_weight
+from book.chapter_3.numbers import G, optimum
 from book.chapter_3.stepped import identified_row
+from book.companion.claims import claim_of
 from book.companion.exhibit import table
-from book.companion.verdict import outcome_of
+from book.companion.verdict import judge, outcome_of
 from softgrip.actuator import fem_results
 from softgrip.actuator.bending import Finger
 from softgrip.actuator.certificate import certified_design
@@ -77,7 +80,7 @@ def table_3_2_recomputed() -> pd.DataFrame:
     first = identified_row(1).natural_frequency.value
     for k, row in enumerate(table_3_2(), start=1):
         best = {
-            reading: f"{optimum('top', f'row {k}', power, mass):.2f}"
+            reading: f"{optimum('top', (row.low, row.high), power, mass):.2f}"
             for reading, (power, mass) in READINGS.items()
         }
         steps = identified_row(k)
@@ -103,6 +106,11 @@ def _estimated(row: FrequencyRow, power: float, mass: float, length: float = 94 
     return f"{natural_frequency(finger, mass):.2f}"
 
 
+def _rubber(name: str) -> float:
+    spread = judge(claim_of(3, "table-3.3-weight-{key}", name)).spread
+    return spread.value if spread else nan
+
+
 @table("3.3", Provenance.PRINTED)
 def table_3_3_recomputed() -> pd.DataFrame:
     """Tabulate the frequencies of Table 3.3."""
@@ -117,7 +125,7 @@ def table_3_3_recomputed() -> pd.DataFrame:
             f"n = {WEIGHT_POWER:g}, N": _estimated(row, WEIGHT_POWER, row.weight / G),
             "outcome": outcome_of(3, "table-3.3-estimated-{key}", name),
             "weight": f"{row.weight:.2f}",
-            "rubber": f"{rubber_weight(name):.2f}",
+            "rubber": f"{_rubber(name):.2f}",
         }
         for name, row in table_3_3().items()
     )

@@ -46,6 +46,11 @@ def author_plant(
 
 
 @remembered
+def shaped(crossover: float, finger: FingerDynamics, held_pole: float | None = None) -> ShapedLoop:
+    """Return the loop that the rule gives for a finger, with the far pole held if it is given."""
+    return shape_loop(finger_state_space(finger), crossover, held_pole=held_pole)
+
+
 def designed(
     target: str, crossover: float, finger: FingerDynamics, hold: bool = True
 ) -> ShapedLoop:
@@ -57,8 +62,7 @@ def designed(
         finger: That is shaped, with pump.
         hold: Whether the far pole, which the criterion hardly sees, is that of the print.
     """
-    held = far_pole(*FILTERS[target]) if hold else None
-    return shape_loop(finger_state_space(finger), crossover, held_pole=held)
+    return shaped(crossover, finger, far_pole(*FILTERS[target]) if hold else None)
 
 
 def as_printed(target: str) -> ShapedLoop:

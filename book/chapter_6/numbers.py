@@ -1,6 +1,7 @@
 """Recomputation of the numbers printed in Chapter 6, by linear model and on the rig."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -9,12 +10,13 @@ from book.chapter_6 import speed as gripper_speed
 from book.companion.verdict import simulated
 from softgrip.control.step_metrics import settling_time
 from softgrip.gripper.gripper_loop import GripperRun, noise_gain
-from softgrip.gripper.internal_model import controller_matrices
+from softgrip.gripper.internal_model import PERIOD, controller_matrices
 from softgrip.gripper.inversion import mean_inverse, moore_penrose_inverse
-from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper
-from softgrip.gripper.printed_loop import FINE, equal_targets, run_printed
+from softgrip.gripper.plant import FingerDynamics, Gripper
+from softgrip.gripper.printed_loop import FINE, equal_targets, run_loop
 from softgrip.gripper.reach import direction, project
-from softgrip.gripper.shaping_filter import FAST, filter_state_space, plant_inside
+from softgrip.gripper.shaping_filter import far_pole, filter_state_space, plant_inside
+from softgrip.reads import remembered
 from softgrip.units import DEG, ML, REV
 
 COMPARED = np.geomspace(0.1, 100, 200)
@@ -22,17 +24,15 @@ COMPARED = np.geomspace(0.1, 100, 200)
 
 
 def fingers(
-    stiffness: Sequence[float], damping: Sequence[float] | None = None, gain: float | None = None
+    stiffness: Sequence[float], damping: Sequence[float] = (1.0, 1.0), gain: float = 1.0
 ) -> Gripper:
-    """Return two fingers of Eq. (6.26); damping and gain as printed if they do not matter."""
-    damping = [f.damping for f in PRINTED.fingers] if damping is None else damping
-    gain = PRINTED.mean.gain if gain is None else gain
+    """Return two fingers of Eq. (6.26); damping and gain are of any size if they do not matter."""
     pairs = zip(damping, stiffness, strict=True)
     return Gripper(tuple(FingerDynamics(C, K, gain) for C, K in pairs))
 
 
 def projection(
-    spa: str, stiffness: Sequence[float], share: float = 0.333, digits: int | None = None
+    spa: str, stiffness: Sequence[float], share: float, digits: int | None = None
 ) -> float:
     """Return an element of proj(Y_d) for equal angles of share pi, in pi rad, Eq. (6.25).
 
@@ -46,8 +46,7 @@ def projection(
 
 def inverse_denominator(gain: float) -> float:
     """Return the common denominator of the mean of the elements' inverses."""
-    of = fingers([f.stiffness for f in PRINTED.fingers], gain=gain)
-    return float(1 / mean_inverse(of).polynomials[0, 0])
+    return float(1 / mean_inverse(fingers([1.0, 1.0], gain=gain)).polynomials[0, 0])
 
 
 def inverse_gap(frequency: float, damping: Sequence[float], stiffness: Sequence[float]) -> float:
@@ -57,41 +56,48 @@ def inverse_gap(frequency: float, damping: Sequence[float], stiffness: Sequence[
     return float(100 * np.abs(ratio - 1).max())
 
 
-def target_loop(numerator: Sequence[float], denominator: Sequence[float]) -> float:
-    """Return c of the target loop c/s that a filter is the optimum of, by its peaks, rad/s.
+Coefficients = tuple[tuple[float, ...], tuple[float, ...]]
+
+
+def low_pass(numerator: Sequence[float], denominator: Sequence[float]) -> Coefficients:
+    """Return numerator and denominator of H, which is 1 at rest, highest power first.
 
     Args:
-        numerator: Of H, highest power first; its last coefficient is the denominator's too.
-        denominator: Without the first and the last coefficient.
+        numerator: Its last coefficient is the denominator's too.
+        denominator: Without the first coefficient, which is 1, and the last.
     """
-    return filters.crossover_of_peaks(numerator, [1.0, *denominator, numerator[-1]])
+    return tuple(numerator), (1.0, *denominator, numerator[-1])
+
+
+def target_loop(numerator: Sequence[float], denominator: Sequence[float]) -> float:
+    """Return c of the target loop c/s that a filter, see `low_pass`, is the optimum of, rad/s."""
+    return filters.crossover_of_peaks(*low_pass(numerator, denominator))
 
 
 def stiffness_inside(numerator: Sequence[float], denominator: Sequence[float]) -> float:
     """Return the stiffness by mass of the plant in the loop H / (1 - H), as `target_loop`."""
-    return plant_inside(numerator, [1.0, *denominator, numerator[-1]])[1]
+    return plant_inside(*low_pass(numerator, denominator))[1]
 
 
 def filter_coefficient(
-    target: str,
     coefficient: str,
     natural_frequency: float,
     damping_ratio: float,
     crossover: float,
-    hold: bool = False,
+    held_by: Mapping[str, Sequence[float]] | None = None,
 ) -> float:
     """Return a coefficient of the H that the rule gives, its denominator starting with 1.
 
     Args:
-        target: "4.8/s" or "2/s": the filter whose far pole may be held.
         coefficient: "num" or "den" and the power of s, such as ``num-3``.
         natural_frequency: Of the finger that is shaped, rad/s.
         damping_ratio: Of that finger.
         crossover: Of the target loop, rad/s.
-        hold: Whether the far pole is the printed one.
+        held_by: Arguments of `low_pass`: the filter that has the far pole, if that is held.
     """
     finger = filters.author_plant(natural_frequency, damping_ratio)
-    top, low = filters.designed(target, float(crossover), finger, hold).coefficients
+    held = far_pole(*low_pass(**held_by)) if held_by else None
+    top, low = filters.shaped(float(crossover), finger, held).coefficients
     part, _, power = coefficient.partition("-")
     return float((top if part == "num" else low)[::-1][int(power)])
 
@@ -106,46 +112,68 @@ def linear_range_degrees() -> float:
     return float(4 * np.pi / 9 / DEG)
 
 
-def step(target: str = "4.8/s", share: float = 0.333, period: float = FINE) -> GripperRun:
-    """Run the printed controller on the printed plant for 4 s; 5 ms stand for no sampling."""
-    return run_printed(target, period=period, angle=share * np.pi, duration=4.0)
+Printed = Mapping[str, Any]
+"""Printed coefficients by name: the arguments of `fingers`, or those of `low_pass`."""
 
 
-def settling(
-    target: str = "4.8/s", share: float = 0.333, band: float = 0.05, spa: str = ""
-) -> float:
-    """Return the settling time of both fingers, or of one, in s; ``band`` is a share."""
-    found = step(target, share)
-    times = settling_time(found.time, found.angles, final=equal_targets(share * np.pi), band=band)
-    return float(times[int(spa) - 1] if spa else times.max())
+@remembered
+def _step(gripper: Gripper, coefficients: Coefficients, angle: float, period: float) -> GripperRun:
+    return run_loop(gripper, coefficients, angle=angle, period=period, duration=4.0)
 
 
-def tracking_error(after: float) -> float:
-    """Return the largest error from proj(Y_d) after a time [s], in deg."""
-    found = step()
-    error = np.abs(found.angles - equal_targets(0.333 * np.pi)[:, None]) / DEG
+def settling(plant: Printed, H: Printed, share: float, band: float = 0.05) -> float:
+    """Return the settling time of both fingers, s; 5 ms stand for no sampling.
+
+    Args:
+        plant, H: The fingers and the filter.
+        share: Of pi: the angle that is wanted of both.
+        band: As a share of the target.
+    """
+    gripper, angle = fingers(**plant), share * np.pi
+    found = _step(gripper, low_pass(**H), angle, FINE)
+    final = equal_targets(angle, gripper)
+    return float(settling_time(found.time, found.angles, final=final, band=band).max())
+
+
+def tracking_error(plant: Printed, H: Printed, share: float, after: float) -> float:
+    """Return the largest error from proj(Y_d) after a time [s], in deg; the rest as `settling`."""
+    gripper, angle = fingers(**plant), share * np.pi
+    found = _step(gripper, low_pass(**H), angle, FINE)
+    error = np.abs(found.angles - equal_targets(angle, gripper)[:, None]) / DEG
     return float(error[:, found.time >= after].max())
 
 
-def push_error(push: float) -> float:
-    """Return the largest error when a push [rad] acts on the left finger for 1 s, in rad."""
-    found = run_printed(
-        angle=0.333 * np.pi, duration=4.0, push=lambda t: (push * (1.4 <= t < 2.4), 0.0)
+def push_error(plant: Printed, H: Printed, share: float, push: float) -> float:
+    """Return the largest error when a push [rad] acts on the left finger for 1 s, in rad.
+
+    The rest is as for `settling`, sampled each 0.1 s.
+    """
+    gripper, angle = fingers(**plant), share * np.pi
+    found = run_loop(
+        gripper,
+        low_pass(**H),
+        angle=angle,
+        period=PERIOD,
+        duration=4.0,
+        push=lambda t: (push * (1.4 <= t < 2.4), 0.0),
     )
-    error = np.abs(found.angles - equal_targets(0.333 * np.pi)[:, None])
+    error = np.abs(found.angles - equal_targets(angle, gripper)[:, None])
     return float(error[:, found.time >= 1.4].max())
 
 
-def noise_error(period: float = 0.1, noise: float = 2.0) -> float:
+def noise_error(plant: Printed, H: Printed, noise: float, period: float = PERIOD) -> float:
     """Return the larger RMS error of the two fingers from the sensors' noise, in deg."""
-    low_pass = filter_state_space(*FAST)
-    matrices = controller_matrices(PRINTED, mean_inverse(PRINTED), low_pass, period=period)
-    return float(noise * noise_gain(PRINTED, matrices).max())
+    gripper, filtered = fingers(**plant), filter_state_space(*low_pass(**H))
+    matrices = controller_matrices(gripper, mean_inverse(gripper), filtered, period=period)
+    return float(noise * noise_gain(gripper, matrices).max())
 
 
-def peak_speed(target: str = "4.8/s", per_unit: float = 1 / REV, period: float = 0.1) -> float:
+def peak_speed(
+    plant: Printed, H: Printed, share: float, per_unit: float = 1 / REV, period: float = PERIOD
+) -> float:
     """Return the largest motor speed of a step, in rev/s; a unit of U is so many rev/s."""
-    return float(per_unit * np.abs(step(target, period=period).commands).max())
+    found = _step(fingers(**plant), low_pass(**H), share * np.pi, period)
+    return float(per_unit * np.abs(found.commands).max())
 
 
 def highest_frequency(milliseconds: float) -> float:

@@ -54,7 +54,7 @@ WORDS = {
     "goal_2": lambda: f"{equal_targets()[1] / DEG:.0f}",
     "passes": lambda: f"{shown.passes_target():.1f}",
     "back": lambda: f"{shown.back_within(1 * DEG):.1f}",
-    "ripple": lambda: f"{numbers.noise_error(noise=model.NOISE / DEG):.1f}",
+    "ripple": lambda: f"{shown.ripple():.1f}",
     "moved_1": lambda: f"{shown.moved_by_push()[0] / DEG:.0f}",
     "moved_2": lambda: f"{-shown.moved_by_push()[1] / DEG:.0f}",
     # Figures 6.7 and 6.8, Tables 6.H to 6.J.

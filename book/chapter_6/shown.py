@@ -5,7 +5,8 @@ import numpy as np
 from book.chapter_6 import figures_model, figures_study, filters, finger_count, grasps, results
 from book.chapter_6.controllers import WANTED
 from book.chapter_6.figures_rig import MODELLED, model_deviation
-from book.chapter_6.numbers import settling
+from book.companion.claims import claim_of
+from book.companion.verdict import judge
 from softgrip.arrays import Floats
 from softgrip.control.step_metrics import overshoot, settling_time
 from softgrip.gripper.plant import PRINTED
@@ -81,15 +82,21 @@ def unstable_from(method: str, delay: int) -> float:
     return float(np.interp(0.0, -found[last : last + 2], figures_model.PERIODS[last : last + 2]))
 
 
+def ripple() -> float:
+    """Return the larger RMS error of Figure 6.6 (b), deg: what the ledger computes of the noise."""
+    spread = judge(claim_of(6, "6.4-simulated-noise-error")).spread
+    return spread.value if spread else np.nan
+
+
 def settles_about(end: int) -> tuple[float, float]:
     """Return a band on either side of SPA 1's overshoot and the settling time in it, s.
 
     The bands are a tenth of a percent apart, the narrower one first.
     """
     found = run_printed(period=FINE)
-    share = float(overshoot(found.angles, target=equal_targets())[0])
-    band = (np.floor(1000 * share) + end) / 1000
-    return float(band), settling(band=band)
+    goal = equal_targets()
+    band = (np.floor(1000 * float(overshoot(found.angles, target=goal)[0])) + end) / 1000
+    return float(band), float(settling_time(found.time, found.angles, final=goal, band=band).max())
 
 
 def peak(target: str, angle: float = WANTED) -> float:

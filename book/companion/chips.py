@@ -7,11 +7,11 @@ from math import inf
 
 import pandas as pd
 
-from book.companion.claims import Basis, read_claims, references
+from book.companion.claims import Basis, Claim, read_claims, references
 from book.companion.errata import Erratum, errata
 from book.companion.markdown import Markdown, markdown_table
 from book.companion.slips import ASSUMPTION, PRINT, RESULT, Change
-from book.companion.verdict import Entry, Outcome, any_meets, ledger, yields
+from book.companion.verdict import Entry, Outcome, ledger, yields
 
 MARKS = {
     Outcome.REPRODUCED: "✓",
@@ -58,11 +58,11 @@ def _assumed(entry: Entry) -> str:
 
 def _banded(entry: Entry) -> str:
     claim = entry.claim
-    values = [value for _, value in entry.band if value == value]
+    values = [case.spread.value for case in entry.band if case.exists]
     if claim.band is None or not values:
         return ""
-    at = ", ".join(_input(v) for v, value in entry.band if any_meets(claim, [value]))
-    inside = "lies within the band" if entry.in_band else "lies outside the band"
+    at = ", ".join(map(_input, entry.met_by))
+    inside = "lies between two of these" if entry.in_band else "comes out at none of these"
     return f"{claim.band.what}: {_range(min(values), max(values))}; the print " + (
         f"comes out at {at}." if at else f"{inside}."
     )
@@ -86,15 +86,20 @@ def _remarks(entry: Entry) -> str:
     return f"<details><summary>remarks</summary>{text.strip()}</details>" if text else ""
 
 
+def _print(claim: Claim) -> str:
+    """Return what is printed, with its bound or its word, and its unit."""
+    sign = {"=": "", "~": "about "}.get(claim.relation, f"{claim.relation} ")
+    unit = "" if claim.unit == "1" else f" {claim.unit}"
+    return html.escape(f"{sign}{claim.printed}{unit}")
+
+
 def _row(entry: Entry) -> str:
     claim, spread = entry.claim, entry.spread
-    sign = "" if claim.relation == "=" else f"{claim.relation} "
-    unit = "" if claim.unit == "1" else f" {claim.unit}"
     value = _range(spread.low, spread.high) if spread else ""
     basis = entry.basis or (claim.nature if claim.nature != "result" else "")
     return (
         f'<tr id="claim-{claim.id}"><td>{html.escape(claim.what)}{_remarks(entry)}</td>'
-        f"<td class='number'>{html.escape(sign + claim.printed + unit)}</td>"
+        f"<td class='number'>{_print(claim)}</td>"
         f"<td class='number'>{value}</td>"
         f"<td>{chip(entry.outcome, entry.outcome)}</td><td>{basis}</td></tr>"
     )
@@ -153,8 +158,6 @@ def _tries(erratum: Erratum, ids: set[str]) -> str:
 
 def _erratum(erratum: Erratum, ids: set[str]) -> str:
     claim, spread = erratum.entry.claim, erratum.entry.spread
-    unit = "" if claim.unit == "1" else f" {claim.unit}"
-    sign = "" if claim.relation == "=" else f"{claim.relation} "
     used = _linked(" , ".join(sorted(references(claim.arguments) - {claim.id})), ids).replace(
         " ,", ","
     )
@@ -162,7 +165,7 @@ def _erratum(erratum: Erratum, ids: set[str]) -> str:
     return (
         f'<tr><td><a href="ledger.html#claim-{claim.id}">{html.escape(claim.what)}</a>'
         f" <small>{html.escape(claim.where)}</small></td>"
-        f"<td class='number'>{html.escape(sign + claim.printed + unit)}</td>"
+        f"<td class='number'>{_print(claim)}</td>"
         f"<td>{value}{f' <small>from {used}</small>' if used else ''}</td>"
         f"<td>{_tries(erratum, ids)}</td></tr>"
     )
@@ -205,12 +208,13 @@ def basis_table(entries: list[Entry]) -> str:
 
 
 def assumptions_table(entries: list[Entry]) -> str:
-    """Return the assumptions that judge, with what each was fitted to and what it brings out."""
+    """Return the assumptions that judge, with what each was fitted to and what comes of others."""
     rows = [
         {
             "assumption": found.assumption.text.replace("|", "\\|"),
             "fitted to": found.fitted,
-            "brings out": found.brings_out,
+            "reproduces": found.reproduced,
+            "comes close to": found.close,
             "of others": found.of,
             "readings tried": found.assumption.tries,
         }
@@ -248,7 +252,7 @@ def show_bases() -> Markdown:
 
 
 def show_assumptions() -> Markdown:
-    """Show the assumptions that judge, what they were fitted to, and what they bring out."""
+    """Show the assumptions that judge, what they were fitted to, and what comes of others."""
     return Markdown(assumptions_table(ledger()))
 
 

@@ -2,7 +2,8 @@
 
 A claim says where a number stands, what it is, the string that is printed, and on what basis it
 can be judged. Where one statement holds for many cells of a table, ``printed`` is a table from
-keys to strings, and ``{key}`` in the other fields stands for the key.
+keys to strings, and ``{key}`` in the other fields stands for the key. A range that is printed is
+two claims, one for each end.
 
 Among a claim's arguments a string that is a number is printed, so it is rounded (`Printed`); a
 number is exact. ``@`` and an id stand for what another claim prints; as a claim's own print, they
@@ -15,6 +16,7 @@ import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal, TypeVar, get_args
 
@@ -44,7 +46,7 @@ class Basis(StrEnum):
 
 
 Nature = Literal["result", "setting", "part", "measurement", "citation"]
-Relation = Literal["=", "<", ">"]
+Relation = Literal["=", "~", "<", ">"]
 
 
 @dataclass(frozen=True)
@@ -57,6 +59,22 @@ class Band:
     values: tuple[Any, ...] = ()
     cases: tuple[dict[str, Any], ...] = ()
     """Instead of values of one argument: those of several, case by case."""
+    continuous: dict[str, str] = field(default_factory=dict)
+    """Why the number is continuous in an argument, by its name: it then takes all values between
+    two neighbouring cases that differ in such arguments alone."""
+
+    @property
+    def inputs(self) -> tuple[dict[str, Any], ...]:
+        """The arguments of each case."""
+        return self.cases or tuple({self.argument: value} for value in self.values)
+
+    @property
+    def joined(self) -> tuple[bool, ...]:
+        """Whether the number is continuous from each case to the next, one fewer than cases."""
+        return tuple(
+            all(name in self.continuous for name in {*a, *b} if a.get(name) != b.get(name))
+            for a, b in pairwise(self.inputs)
+        )
 
 
 @dataclass(frozen=True)
@@ -97,7 +115,8 @@ class Claim:
     nature: Nature = "result"
     """A setting, a part, a measurement or a citation is given if nothing holds against it."""
     relation: Relation = "="
-    """How the recomputed value should stand to the printed one."""
+    """How the recomputed value should stand to the printed one; ``~`` if that is printed with
+    about, around, approximately or almost."""
     exact: bool = False
     """Whether it is a count or a setting, which nobody has rounded."""
     function: str = ""
@@ -288,6 +307,11 @@ def _anywhere(id: str) -> Claim:
         if found := _file(path)[0].get(id):
             return found
     raise UnknownNameError("claim", id, [claim.id for claim in read_claims()])
+
+
+def approximate(claim: Claim) -> bool:
+    """Tell whether a claim's print, or one that it stands on, is printed with a word like about."""
+    return "~" in {claim.relation, *(_anywhere(id).relation for id in claim.stands_on)}
 
 
 def printed_text(id: str) -> str:

@@ -2,12 +2,23 @@
 
 The value is recomputed with the rounding of its printed inputs carried through (`carried`); the
 print stands for an interval too. They meet, or they do not: the rest is what may be concluded.
+
+- A number is printed to half a unit of its last place, be it an input or what is judged; a count, a
+  definition or a setting is exact.
+- A range is two numbers, its ends. Below, within, above and at least make a number a bound.
+- About, around, approximately and almost do not change to how many places a number is printed, but
+  say that it may be off by more, and not by how much: what misses it, or misses what follows from
+  it, stays open, unless the claim says why no reading of the word reaches so far (``regardless``).
+- A print lies in a band of unprinted inputs if a case gives it, or if two neighbouring cases have
+  it between them and the number is continuous from one to the other (`Band.continuous`).
 """
 
+from collections import Counter
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from enum import StrEnum
 from importlib import import_module
+from itertools import pairwise
 from math import isfinite
 from typing import Any, TypeVar
 
@@ -16,6 +27,7 @@ from book.companion.claims import (
     Assumption,
     Basis,
     Claim,
+    approximate,
     assumptions,
     claim_of,
     read_claims,
@@ -39,13 +51,31 @@ class Outcome(StrEnum):
     CONTRADICTS = "contradicts"
     """What is printed excludes it, whatever the unprinted inputs are."""
     OPEN = "open"
-    """Inputs that decide are not printed."""
+    """Inputs that decide are not printed, nor how far a word like about reaches."""
     GIVEN = "given"
     """A setting, a part or a measurement: there is nothing to hold it against."""
 
 
 def _finite(value: float) -> float | None:
     return value if isfinite(value) else None
+
+
+@dataclass(frozen=True)
+class Case:
+    """What comes out for one case of a band."""
+
+    inputs: str
+    spread: Spread
+
+    @property
+    def ends(self) -> tuple[float, float, float]:
+        """The value, and the least and largest that rounding allows; NaN if there is no number."""
+        return self.spread.value, self.spread.low, self.spread.high
+
+    @property
+    def exists(self) -> bool:
+        """Whether the inputs have a number at all."""
+        return all(end == end for end in self.ends)
 
 
 @dataclass(frozen=True)
@@ -56,8 +86,8 @@ class Entry:
     outcome: Outcome
     spread: Spread | None = None
     """The recomputed value, with what rounding leaves open; None if nothing recomputes it."""
-    band: tuple[tuple[str, float], ...] = ()
-    """(inputs, value) over the declared range of unprinted inputs."""
+    band: tuple[Case, ...] = ()
+    """What comes out over the declared range of unprinted inputs."""
     under_assumption: float | None = None
     """What comes out if an assumption takes the place of stated inputs."""
     function: str = ""
@@ -75,10 +105,30 @@ class Entry:
         return assumptions(self.claim.chapter)[name] if name else None
 
     @property
+    def met_by(self) -> tuple[str, ...]:
+        """Cases of the band that give the print, as they stand or at an end of their rounding.
+
+        Between those ends the number may jump, as a settling time does.
+        """
+        return tuple(
+            case.inputs
+            for case in self.band
+            if any(meets(self.claim, end, end) for end in case.ends)
+        )
+
+    @property
     def in_band(self) -> bool | None:
         """Whether the print lies in the band; None without one."""
-        values = [value for _, value in self.band if value == value]
-        return any_meets(self.claim, values) if values else None
+        if self.claim.band is None or not any(case.exists for case in self.band):
+            return None
+        between = (
+            sorted((*a.ends, *b.ends))
+            for (a, b), joined in zip(pairwise(self.band), self.claim.band.joined, strict=True)
+            if joined and a.exists and b.exists
+        )
+        return bool(self.met_by) or any(
+            meets(self.claim, ends[0], ends[-1]) is not False for ends in between
+        )
 
     def record(self) -> dict[str, Any]:
         """Return the entry as plain values, as ``ledger.json`` holds it."""
@@ -106,7 +156,7 @@ class Entry:
             "tries": assumed.tries if assumed else 0,
             "under_assumption": self.under_assumption,
             "band": claim.band.what if claim.band else "",
-            "band_values": [[words, _finite(value)] for words, value in self.band],
+            "band_values": [[case.inputs, _finite(case.spread.value)] for case in self.band],
             "in_band": self.in_band,
             "stands_on": sorted(claim.stands_on),
             "author": f"{source.repository} {source.file} at {source.commit}" if source else "",
@@ -120,18 +170,12 @@ class Entry:
 def meets(claim: Claim, low: float, high: float) -> bool | None:
     """Tell whether values between two stand to the print as printed; None if some do, some not."""
     number = Printed(claim.printed, exact=claim.exact)
-    if claim.relation == "=":
+    if claim.relation in ("=", "~"):
         # The error of writing a number in binary is no difference.
         slack = number.half + 1e-9 * max(abs(number), number.half)
         return low <= number + slack and high >= number - slack
     holds = [value < number if claim.relation == "<" else value > number for value in (low, high)]
     return holds[0] if holds[0] == holds[1] else None
-
-
-def any_meets(claim: Claim, values: Collection[float]) -> bool:
-    """Tell whether the print lies among values, or stands to one of them as printed."""
-    low, high = min(values), max(values)
-    return meets(claim, low, high) is not False
 
 
 def _outcome(claim: Claim, spread: Spread | None, fitted: bool) -> Outcome:
@@ -143,11 +187,13 @@ def _outcome(claim: Claim, spread: Spread | None, fitted: bool) -> Outcome:
     if holds:
         return Outcome.REPRODUCED
     number = float(claim.printed)
-    may_be_close = claim.relation == "=" and not claim.exact and claim.basis is not Basis.PRINT
+    equal = claim.relation in ("=", "~")
+    may_be_close = equal and not claim.exact and claim.basis is not Basis.PRINT
     if may_be_close and abs(spread.value - number) <= CLOSE * abs(number):
         return Outcome.CLOSE
     unprinted = claim.basis in (Basis.AUTHOR, Basis.DATA, Basis.ASSUMPTION) or claim.band
-    return Outcome.OPEN if unprinted and not claim.regardless else Outcome.CONTRADICTS
+    undecided = (unprinted or approximate(claim)) and not claim.regardless
+    return Outcome.OPEN if undecided else Outcome.CONTRADICTS
 
 
 Function = TypeVar("Function", bound=Callable[..., float])
@@ -216,13 +262,10 @@ def judge(claim: Claim) -> Entry:
     stated, assume = resolved(claim.arguments), resolved(claim.assume)
     judged = stated | assume if claim.basis is Basis.ASSUMPTION else stated
     spread = carried(function, judged)
-    band: tuple[tuple[str, float], ...] = ()
-    if swept := claim.band:
-        cases = swept.cases or tuple({swept.argument: value} for value in swept.values)
-        band = tuple(
-            (", ".join(map(str, inputs.values())), float(function(**judged | inputs)))
-            for inputs in map(resolved, cases)
-        )
+    band = tuple(
+        Case(", ".join(map(str, inputs.values())), carried(function, judged | inputs))
+        for inputs in (map(resolved, claim.band.inputs) if claim.band else ())
+    )
     assumed = assume and claim.basis is not Basis.ASSUMPTION
     named = assumptions(claim.chapter).get(claim.assumption)
     fitted = claim.basis is Basis.ASSUMPTION and named is not None and claim.id in named.fitted_to
@@ -249,17 +292,18 @@ def outcome_of(chapter: int, claim: str, key: object = "") -> Outcome:
 
 @dataclass(frozen=True)
 class Yield:
-    """What an assumption brings out, and what it was fitted to."""
+    """What comes of the claims that an assumption judges, and what it was fitted to."""
 
     assumption: Assumption
     fitted: int
-    brings_out: int
+    reproduced: int
+    close: int
     of: int
-    """Claims that it judges, those that it was fitted to left out."""
+    """Claims that it judges, those that it was fitted to left out: of which the two above are."""
 
 
 def yields(entries: Collection[Entry]) -> list[Yield]:
-    """Count, for each assumption that judges, the numbers it brings out beside those fitted to."""
+    """Count, for each assumption that judges, what comes of numbers that it was not fitted to."""
     found: dict[str, list[Entry]] = {}
     for entry in entries:
         if entry.basis is Basis.ASSUMPTION:
@@ -268,6 +312,7 @@ def yields(entries: Collection[Entry]) -> list[Yield]:
     for judged in found.values():
         if (assumption := judged[0].assumption) is not None:
             free = [e for e in judged if e.claim.id not in assumption.fitted_to]
-            out = sum(entry.outcome is Outcome.REPRODUCED for entry in free)
-            result.append(Yield(assumption, len(assumption.fitted_to), out, len(free)))
+            count = Counter(entry.outcome for entry in free)
+            met = count[Outcome.REPRODUCED], count[Outcome.CLOSE]
+            result.append(Yield(assumption, len(assumption.fitted_to), *met, len(free)))
     return result

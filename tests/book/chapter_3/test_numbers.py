@@ -17,6 +17,8 @@ from softgrip.dynamics.second_order import SecondOrder
 
 SCRIPT = SecondOrder(1.812, 0.7), Weights(2000.0, (1.0, 0.1, 0.0))
 """Plant and weights of the control script."""
+DESIGN_1 = {"top": 20.0, "bottom": 4.0, "width": 30.0, "wall": 1.5}
+"""The optimum of Table 3.1, mm."""
 
 
 @pytest.mark.parametrize("combined", ["sum", "product"])
@@ -33,13 +35,12 @@ def test_stated_bounds_of_b_and_h_give_another_bottom():
 
 @pytest.mark.parametrize("combined", ["sum", "product"])
 @pytest.mark.parametrize(
-    ("row", "highest", "top"),
+    ("low", "omega", "top"),
     # By hand: a = (12 M omega^2 L^2 / 2 E w)^(1/3) - b, Eq. (3.19) at n = 1.
-    [("row 2", None, 19.2998), ("row 3", None, 18.0891), ("row 3", 2.2, 16.8442)],
+    [(2.4, 2.6, 19.2998), (2.2, 2.4, 18.0891), (2.2, 2.2, 16.8442)],
 )
-def test_heights_of_table_3_2_with_the_inputs_of_the_script(combined, row, highest, top):
-    found = numbers.optimum("top", row, combined=combined, highest=highest)
-    omega = highest or {"row 2": 2.6, "row 3": 2.4}[row]
+def test_heights_of_table_3_2_with_the_inputs_of_the_script(combined, low, omega, top):
+    found = numbers.optimum("top", (low, omega), combined=combined)
     by_hand = (12 * 0.36 * omega**2 * 0.094**2 / (2 * 0.34e6 * 0.03)) ** (1 / 3) * 1e3 - 4
     assert found == pytest.approx(by_hand, abs=1e-3)
     assert found == pytest.approx(top, abs=1e-3)
@@ -48,9 +49,8 @@ def test_heights_of_table_3_2_with_the_inputs_of_the_script(combined, row, highe
 @pytest.mark.parametrize("row", [2, 3, 4])
 def test_readings_that_give_table_3_3_miss_the_heights_by_more_than_the_script(row):
     height = printed(f"table-3.2-top-{row}")
-    off = [
-        abs(numbers.optimum("top", f"row {row}", n, mass) - height) for n, mass in READINGS.values()
-    ]
+    band = [printed(f"table-3.2-{end}-{row}") for end in ("low", "high")]
+    off = [abs(numbers.optimum("top", band, n, mass) - height) for n, mass in READINGS.values()]
     assert off[0] < min(off[1:])
 
 
@@ -59,14 +59,14 @@ def test_mass_that_gives_the_second_height_gives_none_as_low_as_the_third(power)
     """Eq. (3.19) at the upper ends of both bands: ``h**(n + 2)`` goes with ``M omega**2``."""
     second = Finger(Section(0.0193, 0.004, 0.030, 0.0015), fractional_power=power)
     mass = spring_constant(second) / 2.6**2
-    found = [numbers.optimum("top", row, power, mass) for row in ("row 2", "row 3")]
+    found = [numbers.optimum("top", band, power, mass) for band in ((2.4, 2.6), (2.2, 2.4))]
     third = 23.3 * (2.4 / 2.6) ** (2 / (power + 2)) - 4
     assert found == pytest.approx([19.3, third], abs=1e-3)
     assert third > printed("table-3.2-top-3") + 1
 
 
 def test_band_that_no_section_keeps_gives_no_number():
-    assert isnan(numbers.optimum("top", "row 1", power=1.1))
+    assert isnan(numbers.optimum("top", (2.5, 3.5), power=1.1))
 
 
 def test_one_power_gives_five_printed_numbers_within_the_rounding_of_their_inputs():
@@ -80,11 +80,11 @@ def test_one_power_gives_five_printed_numbers_within_the_rounding_of_their_input
     for key, width, E, weight in rows:
         assert weight == pytest.approx(printed(f"table-3.3-weight-design-{key}"), abs=0.005)
         assert pytest.approx(printed(f"table-3.3-modulus-design-{key}"), abs=0.005) == E
-        full = numbers.frequency_at(20, 4, n, weight, E, newtons=True)
+        full = numbers.frequency_at(20, 4, 30, n, weight, E, 94, newtons=True)
         found = numbers.scaled_frequency(full, (1, 1), width=(width, 30))
         assert found == pytest.approx(printed(f"table-3.3-estimated-design-{key}"), abs=0.005)
-    for name, key in (("Opt. parameters", "opt--parameters"), ("Variance 1", "variance-1")):
-        total = numbers.objective_sum(name, n, 0.15, modulus, 0.4, 1.4)
+    for width, key in ((30, "opt--parameters"), (29, "variance-1")):
+        total = numbers.objective_sum(DESIGN_1 | {"width": width}, n, 0.15, modulus, 0.4, 1.4)
         assert total == pytest.approx(printed(f"3.4-sum-{key}"), abs=0.005)
 
 
@@ -95,21 +95,21 @@ def test_angle_that_a_sum_leaves_is_the_angle_that_makes_it():
 
 def test_narrower_finger_is_weaker_by_its_torque():
     narrow, wide = (torque(Section(20, 4, w, 1.5), 1.0) for w in (29, 30))
-    assert numbers.section_torque_ratio("Variance 1") == pytest.approx(narrow / wide, rel=1e-9)
+    found = numbers.width_torque_ratio(29, 30, top=20, bottom=4, wall=1.5)
+    assert found == pytest.approx(narrow / wide, rel=1e-9)
 
 
 def test_wall_pulls_as_in_the_check_script():
     """Which gives 0.305816 N m at 0.15 MPa."""
-    section = {"top": 20, "bottom": 4, "width": 30, "wall": 1.5}
-    assert numbers.section_torque(0.15, section, wall_pulls=True) == pytest.approx(
+    assert numbers.section_torque(0.15, DESIGN_1, wall_pulls=True) == pytest.approx(
         0.305816, abs=5e-7
     )
 
 
 def test_scaled_frequency_is_that_of_the_formula_whatever_the_power():
     for n in (1.0, 1.7, 2.5):
-        first = numbers.frequency_at(20, 4, n, 0.35, 0.34)
-        other = numbers.frequency_at(20, 4, n, 0.46, 0.26)
+        first = numbers.frequency_at(20, 4, 30, n, 0.35, 0.34, 94)
+        other = numbers.frequency_at(20, 4, 30, n, 0.46, 0.26, 94)
         scaled = numbers.scaled_frequency(first, (0.46, 0.35), modulus=(0.26, 0.34))
         assert other == pytest.approx(scaled, rel=1e-12)
 
@@ -159,11 +159,12 @@ def test_design_of_the_control_script_rises_in_the_printed_time_and_settles_late
 
 def test_chamber_that_is_full_weighs_as_the_block():
     block = 1080 * 9.80665 * 0.094 * 0.030 * 0.024
-    assert numbers.rubber_weight("Design 1(E1)", filled=1.0) == pytest.approx(block, rel=1e-9)
+    assert numbers.rubber_weight(DESIGN_1, 94, 1080, filled=1.0) == pytest.approx(block, rel=1e-9)
 
 
 def test_counts_of_the_tables():
-    assert (numbers.prototypes(), numbers.step_of_the_optimum()) == (6, 0.5)
+    assert numbers.prototypes() == 6
+    assert numbers.off_integers([*DESIGN_1.values()]) == 0.5
 
 
 def test_heights_decide_a_limit_that_they_pass():

@@ -95,6 +95,15 @@ def test_fitted_power_is_read_to_two_decimals_of_its_reciprocal(name):
     assert fitted_power(name, inf, "engineering") != fitted_power(name, inf)
 
 
+@pytest.mark.usefixtures("tensile_tests")
+@pytest.mark.parametrize("name", ["Dragon Skin 30", "Ecoflex 00-10", "SORTA-Clear 40"])
+def test_print_between_two_cases_of_its_band_comes_out_at_a_strain_between_them(name):
+    """What the band's word continuous says, of the three powers that no case gives."""
+    print_ = printed(f"table-5.1-n-{slug(name)}")
+    found = [fitted_power(name, strain, two_decimals=True) for strain in np.arange(2.0, 6.05, 0.1)]
+    assert min(abs(n - print_) for n in found) <= print_.half
+
+
 def test_present_area_is_half_the_first_at_a_strain_of_one():
     first, present = (
         hundred_percent_modulus("Dragon Skin 30", stress) for stress in ("engineering", "true")

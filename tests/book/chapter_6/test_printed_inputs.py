@@ -39,7 +39,9 @@ def test_deviations_are_of_the_nine_free_coefficients():
     ours = filters.designed("2/s", 2.0, filters.author_plant())
     off = filters.deviations("2/s", ours)
     assert len(off) == 9
-    found = numbers.filter_coefficient("2/s", "den-4", 1.812, 0.7, 2.0, hold=True)
+    top, low = FILTERS["2/s"]
+    held_by = {"numerator": top, "denominator": low[1:-1]}
+    found = numbers.filter_coefficient("den-4", 1.812, 0.7, 2.0, held_by)
     assert off[5] == pytest.approx(100 * (found / 442.5 - 1))
 
 

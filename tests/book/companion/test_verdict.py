@@ -74,10 +74,64 @@ def test_assumption_beside_stated_inputs_judges_nothing():
 def test_with_an_unprinted_input_a_number_stays_open_unless_none_can_bring_it_out():
     swept = {"arguments": {"x": 9.0}, "band": Band("x", "x", (2.0, 3.0))}
     assert judge(claim(**swept)).outcome is Outcome.OPEN
-    assert judge(claim(**swept)).in_band
     assert judge(claim(**swept, regardless="x is above 8")).outcome is Outcome.CONTRADICTS
-    outside = {**swept, "band": Band("x", cases=({"x": 4.0}, {"x": 5.0}))}
-    assert not judge(claim(**outside)).in_band
+
+
+def banded(*cases, why=None, **fields):
+    return judge(
+        claim(arguments={"x": 9.0}, band=Band("x", "x", cases, continuous=why or {}), **fields)
+    )
+
+
+def test_print_between_two_cases_is_in_the_band_only_if_the_number_does_not_jump_there():
+    assert banded(2.0, 3.0).in_band is False
+    assert banded(2.0, 3.0, why={"x": "a line"}).in_band is True
+    assert banded(4.0, 5.0, why={"x": "a line"}).in_band is False
+    assert judge(claim()).in_band is None
+
+
+def test_case_gives_the_print_within_the_rounding_of_both():
+    assert banded(2.0, 2.374).met_by == ("2.374",)
+    assert banded(2.0, "2.4").met_by == ()  # 2.35, 2.4 and 2.45: between them it may jump
+    assert banded("2.38", 9.0).met_by == ("2.38",)  # from 2.375, where the print ends
+    assert banded("2.4", 9.0, why={"x": "a line"}).in_band is True
+
+
+def test_cases_are_joined_by_what_is_continuous_alone(monkeypatch):
+    monkeypatch.setattr(module, "_function", lambda claim: lambda x, way: x)
+    steps = ({"x": 2.0, "way": "a"}, {"x": 2.3, "way": "a"}, {"x": 3.0, "way": "b"})
+    band = Band("x", cases=steps, continuous={"x": "a line"})
+    assert band.joined == (True, False)
+    inputs = {"arguments": {"x": 9.0, "way": "a"}, "band": band}
+    assert judge(claim(**inputs)).in_band is False
+    assert judge(claim(printed="2.15", **inputs)).in_band is True
+
+
+def test_case_without_a_number_joins_nothing():
+    entry = banded(2.0, float("nan"), 3.0, why={"x": "a line"})
+    assert (entry.in_band, entry.met_by) == (False, ())
+    assert banded(float("nan")).in_band is None
+
+
+@pytest.mark.parametrize(("x", "expected"), [(2.37, "reproduced"), (2.48, "close"), (9.0, "open")])
+def test_what_is_printed_with_a_word_like_about_has_no_bounds(x, expected):
+    assert judge(claim(relation="~", arguments={"x": x})).outcome == expected
+
+
+def test_about_may_be_off_by_more_in_what_stands_on_it_too(monkeypatch):
+    """3.4-plateau is printed as about 0.15 N m, 3.4-measured-torque as 0.359 N m."""
+    about, plain = ({"x": f"@3.4-{name}"} for name in ("plateau", "measured-torque"))
+    assert judge(claim(basis="print", arguments=about)).outcome is Outcome.OPEN
+    assert judge(claim(basis="print", arguments=plain)).outcome is Outcome.CONTRADICTS
+    reason = {"regardless": "2.37 is sixteen times as much"}
+    assert judge(claim(basis="print", arguments=about, **reason)).outcome is Outcome.CONTRADICTS
+
+
+def test_what_speaks_for_an_assumption_is_counted_by_outcome():
+    ids = {"fitted": 2.37, "out": 2.37, "near": 2.4, "off": 9.0}
+    entries = [judge(claim(basis="assumption", id=i, arguments={"x": x})) for i, x in ids.items()]
+    beside = judge(claim(assume={"x": 2.37}, assumption="half", arguments={"x": 9.0}))
+    assert module.yields([*entries, beside]) == [module.Yield(HALF, 1, 1, 1, 3)]
 
 
 @pytest.mark.parametrize("nature", ["measurement", "citation", "setting", "part"])
