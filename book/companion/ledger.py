@@ -20,29 +20,34 @@ from softgrip.kept import write_data
 from softgrip.provenance import Provenance, data_folder, data_rows
 
 EXPECTED = "claims/expected.csv"
-FROZEN = ("id", "outcome", "basis", "value", "low", "high", "under_assumption")
+FROZEN = ("id", "outcome", "basis", "value", "low", "high", "under_assumption", "band_values")
 """Fields of a record that are frozen: the words, and the numbers that they hang on."""
 BEGIN, END = "<!-- verdicts: written by make ledger -->", "<!-- end of verdicts -->"
 
 
+def _text(value: object) -> str:
+    if isinstance(value, list):
+        return " ".join(map(_text, value))
+    return f"{value:.9g}" if isinstance(value, float) else "" if value is None else str(value)
+
+
 def frozen(entry: Entry) -> dict[str, str]:
     """Return what is frozen of an entry, as text, numbers to nine digits."""
-    record = entry.record()
-    words = {name: record[name] for name in FROZEN}
-    return {
-        name: f"{value:.9g}" if isinstance(value, float) else "" if value is None else str(value)
-        for name, value in words.items()
-    }
+    record = entry.record() | {"band_values": [case.spread.value for case in entry.band]}
+    return {name: _text(record[name]) for name in FROZEN}
 
 
 def changes(entry: Entry, accepted: Mapping[str, str]) -> dict[str, str]:
     """Return what is not as it was accepted: other words, numbers beyond the claim's tolerance."""
 
+    def close(now: str, was: str) -> bool:
+        return now == was or isclose(float(now), float(was), rel_tol=entry.claim.tolerance)
+
     def alike(now: str, was: str) -> bool:
         try:
-            return isclose(float(now), float(was), rel_tol=entry.claim.tolerance)
+            return all(close(*pair) for pair in zip(now.split(), was.split(), strict=True))
         except ValueError:
-            return now == was
+            return False
 
     now = frozen(entry)
     return {

@@ -1,16 +1,18 @@
 """Outcomes and values are those that were accepted, and the README's counts are theirs."""
 
 import sys
+from dataclasses import replace
 from inspect import unwrap
+from math import nan
 from types import CodeType, FunctionType
 
 import pytest
 
 from book.companion.chips import counts_table
-from book.companion.claims import approximate, resolved
-from book.companion.ledger import BEGIN, END, changes, expected, write_csv
-from book.companion.printed import _rounded
-from book.companion.verdict import ledger
+from book.companion.claims import approximate, claim_of, resolved
+from book.companion.ledger import BEGIN, END, changes, expected, frozen, write_csv
+from book.companion.printed import Spread, _rounded
+from book.companion.verdict import Case, judge, ledger
 
 
 @pytest.fixture(scope="module")
@@ -30,6 +32,26 @@ def test_a_value_that_moves_without_its_outcome_is_seen(entries):
     accepted = expected()[entry.claim.id]
     assert changes(entry, accepted | {"value": str(entry.spread.value * (1 + 1e-4))})
     assert not changes(entry, accepted | {"value": str(entry.spread.value * (1 + 1e-8))})
+
+
+@pytest.mark.parametrize(
+    ("band", "seen"),
+    [
+        ([1.0, 2.0, nan], False),
+        ([1.0, 2.0 * (1 + 1e-8), nan], False),
+        ([1.0, 2.0 * (1 + 1e-4), nan], True),
+        ([1.0, nan, nan], True),
+        ([1.0, 2.0], True),
+        ([], True),
+    ],
+)
+def test_a_band_that_moves_is_seen_whatever_the_value_does(band, seen):
+    entry = judge(claim_of(4, "4.3-gains"))
+    was, now = (
+        replace(entry, band=tuple(Case("", Spread(value, value, value)) for value in values))
+        for values in ([1.0, 2.0, nan], band)
+    )
+    assert set(changes(now, frozen(was))) == ({"band_values"} if seen else set())
 
 
 def test_readme_has_the_counts(entries, root):
