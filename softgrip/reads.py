@@ -55,6 +55,7 @@ def remembered(function: Callable[Arguments, Result]) -> Callable[Arguments, Res
     """Cache a function, as `functools.cache` does, together with the files that it read.
 
     A result from memory counts as read from them again: whoever shows it can say where it is from.
+    It is forgotten by ``cache_clear``, as there.
     """
 
     @cache
@@ -69,4 +70,5 @@ def remembered(function: Callable[Arguments, Result]) -> Callable[Arguments, Res
         _note(files)
         return result
 
+    again.cache_clear = first.cache_clear  # type: ignore[attr-defined]
     return again

@@ -50,6 +50,8 @@ def test_result_from_memory_counts_as_read_again_also_through_others(tmp_path):
         read(two)
     assert seen == {two}
     assert calls == [one, two]
+    read.cache_clear()
+    assert (read(one), calls) == ("one", [one, two, one])
 
 
 def test_record_ends_where_an_error_passes(tmp_path):

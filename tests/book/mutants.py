@@ -2,9 +2,10 @@
 
 ``python -m tests.book.mutants --count 200 --seed 1`` draws that many changes among all functions of
 ``book.chapter_N.numbers``, ``book.companion.relations`` and the laws of ``softgrip`` that a claim
-reaches. Each is put in the place of the sound one in a process of its own, and the quickest claims
-that reach it are judged. What changes neither an outcome nor a value has survived: a claim may be
-missing, the change may make no difference, or it is for the function's own tests to notice.
+reaches. Each is put in the place of the sound one in a process of its own, and the claims that
+reach it are judged, the quickest first, until one of them notices. What changes neither an outcome
+nor a value has survived: a claim may be missing, the change may make no difference, or it is for
+the function's own tests to notice.
 """
 
 import argparse
@@ -18,7 +19,7 @@ import textwrap
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from types import FunctionType
+from types import CodeType, FunctionType
 
 from book.companion.claims import Claim, read_claims
 from book.companion.ledger import changes, expected
@@ -31,10 +32,10 @@ SWAPS = {
     ast.Div: ast.Mult,
     ast.Pow: ast.Mult,
 }
-TRIED = 3
-"""Claims, the quickest, by which a mutant is judged."""
 WITHIN = 60.0
-"""s for one mutant: what takes longer has been changed enough to be noticed."""
+"""s for one mutant."""
+READ_ONLY = ("softgrip.reads", "book.companion.claims")
+"""Modules whose caches hold no result of a law."""
 
 
 @dataclass(frozen=True)
@@ -48,15 +49,21 @@ class Mutant:
     was: str
     now: str
 
-    def code(self) -> FunctionType:
-        """Return the changed function."""
-        function = getattr(importlib.import_module(self.module), self.name)
-        tree = _parsed(function)
-        node = _nodes(tree)[self.place]
-        _change(node)
-        namespace = dict(function.__globals__)
+    def __str__(self) -> str:
+        return f"{self.module}.{self.name}: {self.was} -> {self.now}"
+
+    @property
+    def function(self) -> FunctionType:
+        """The sound function, without what decorates it."""
+        return inspect.unwrap(getattr(importlib.import_module(self.module), self.name))
+
+    def code(self) -> CodeType:
+        """Return the code of the changed function."""
+        tree = _parsed(self.function)
+        _change(_nodes(tree)[self.place])
+        namespace = dict(self.function.__globals__)
         exec(compile(ast.fix_missing_locations(tree), "<mutant>", "exec"), namespace)
-        return namespace[self.name]
+        return namespace[self.name].__code__
 
 
 def _parsed(function: Callable) -> ast.Module:
@@ -66,7 +73,7 @@ def _parsed(function: Callable) -> ast.Module:
 
 
 def _nodes(tree: ast.Module) -> list[ast.AST]:
-    """Return the nodes that can be changed: operators, numbers but in a signature, comparisons."""
+    """Return the nodes that can be changed: operators, numbers but in a signature."""
     body = [inner for statement in tree.body[0].body for inner in ast.walk(statement)]
     return [
         node
@@ -94,6 +101,29 @@ def mutants(module: str, name: str) -> Iterator[Mutant]:
         yield Mutant(module, name, place, was, ast.unparse(node))
 
 
+def mutant(text: str) -> Mutant:
+    """Return a mutant by how it is listed.
+
+    Raises:
+        LookupError: If its function has no such change, or has it at several places.
+    """
+    place, _, change = text.partition(": ")
+    every = [*mutants(*place.rsplit(".", 1))]
+    found = [one for one in every if str(one) == text]
+    if len(found) != 1:
+        valid = sorted(str(one).partition(": ")[2] for one in every)
+        raise LookupError(f"expected one {change!r} in {place}, got {len(found)}; valid: {valid}")
+    return found[0]
+
+
+def forget() -> None:
+    """Empty our caches, that what is broken, or sound again, is computed anew."""
+    for name, module in [*sys.modules.items()]:
+        if name.startswith(("softgrip.", "book.")) and name not in READ_ONLY:
+            for value in [*vars(module).values()]:
+                getattr(value, "cache_clear", lambda: None)()
+
+
 def reached(claim: Claim) -> set[tuple[str, str]]:
     """Judge a claim; return the functions of ours, by module and name, that it calls."""
     found = set()
@@ -115,6 +145,7 @@ def judged_by(claims: list[Claim]) -> dict[tuple[str, str], list[Claim]]:
     """Return the claims that reach each function of the laws and recomputations, quickest first."""
     timed: dict[tuple[str, str], list[tuple[float, int]]] = {}
     for k, claim in enumerate(claims):
+        importlib.import_module(f"book.chapter_{claim.chapter}.numbers")
         start = time.perf_counter()
         names = in_process(reached, claim, wait=10 * WITHIN) or set()
         took = time.perf_counter() - start
@@ -139,25 +170,24 @@ def in_process(function: Callable, *arguments: object, wait: float) -> object:
     here, there = context.Pipe(duplex=False)
     worker = context.Process(target=lambda: there.send(function(*arguments)), daemon=True)
     worker.start()
+    there.close()  # or the end of one that fails would not be seen
     answer = here.recv() if here.poll(wait) else None
     worker.kill()
     worker.join()
     return answer
 
 
-def killed(mutant: Mutant, claims: list[Claim]) -> bool:
-    """Tell whether a change shows in what the ledger has accepted of some claims."""
-    function = getattr(importlib.import_module(mutant.module), mutant.name)
-    inner = inspect.unwrap(function)
-    inner.__code__ = mutant.code().__code__
+def noticed_by(broken: Mutant, claims: list[Claim]) -> str:
+    """Return the first claim in whose accepted words and values a change shows, or nothing."""
+    broken.function.__code__ = broken.code()
     accepted = expected()
     for claim in claims:
         try:
             if changes(judge(claim), accepted[claim.id]):
-                return True
-        except Exception:  # whatever a broken formula leads to, it is noticed
-            return True
-    return False
+                return claim.id
+        except Exception as error:  # whatever a broken formula leads to, it is noticed
+            return f"{claim.id} ({type(error).__name__})"
+    return ""
 
 
 def main() -> None:
@@ -168,16 +198,15 @@ def main() -> None:
     parser.add_argument("--chapter", type=int)
     asked = parser.parse_args()
     by = judged_by(read_claims(asked.chapter))
-    every = [(mutant, by[key]) for key in sorted(by) for mutant in mutants(*key)]
+    every = [(broken, by[key]) for key in sorted(by) for broken in mutants(*key)]
     drawn = random.Random(asked.seed).sample(every, min(asked.count, len(every)))
     print(f"{len(every)} mutants of {len(by)} functions, {len(drawn)} drawn", flush=True)
     survivors = 0
-    for mutant, claims in drawn:
-        survived = in_process(killed, mutant, claims[:TRIED], wait=WITHIN) is False
-        survivors += survived
-        place = f"{mutant.module}.{mutant.name}: {mutant.was} -> {mutant.now}"
-        fate = "SURVIVED" if survived else "noticed "
-        print(fate, place, *(claim.id for claim in claims[:TRIED]), sep="  ", flush=True)
+    for broken, claims in drawn:
+        by_claim = in_process(noticed_by, broken, claims, wait=WITHIN)
+        fate = {None: "TOO LONG", "": "SURVIVED"}.get(by_claim, "noticed ")
+        survivors += fate == "SURVIVED"
+        print(fate, broken, by_claim or f"{len(claims)} claims", sep="  ", flush=True)
     print(f"{survivors} of {len(drawn)} survived")
 
 
