@@ -119,3 +119,15 @@ def test_errors_are_by_hand():
     np.testing.assert_allclose(found.place, [5e-3, 4e-3, np.nan], atol=1e-12)
     np.testing.assert_allclose(found.angle, [np.nan, 0, np.nan], atol=1e-12)
     assert found.elements.tolist() == [1, 2, 0]
+
+
+@given(angle=st.floats(-1.5, 1.5), along=st.floats(-0.02, 0.02), off=st.floats(-0.02, 0.02))
+def test_place_of_a_line_errs_by_what_is_square_to_it_alone(angle, along, off):
+    line, square = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    felt = np.zeros((1, 8))
+    felt[0, [0, 3]] = 0.5
+    where = PAD.places[[0, 3]].mean(axis=0) + along * line + off * square
+    found = place_errors(
+        Contacts(felt, np.zeros(1), np.zeros(1), ["line"], ["a"], [where], [angle], [0.1]), PAD
+    )
+    np.testing.assert_allclose(found.place, [abs(off)], atol=1e-12)
