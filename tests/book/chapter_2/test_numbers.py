@@ -111,3 +111,7 @@ def test_what_the_claims_count_is_listed_once():
     for claim in counted:
         values = claim.arguments["values"]
         assert len({*values}) == len(values), claim.id
+
+
+def test_shape_that_deforms_twice_as_much_and_needs_half_the_deformation_feels_a_quarter():
+    assert numbers.least_force_by_deformation(0.01, 0.7, 1.4, threshold=0.5) == 0.0025

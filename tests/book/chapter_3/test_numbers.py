@@ -8,7 +8,7 @@ from scipy.integrate import solve_bvp
 from book.chapter_3 import numbers
 from book.chapter_3.tables import READINGS
 from book.companion.claims import printed
-from softgrip.actuator.bending import Finger
+from softgrip.actuator.bending import Finger, bending_angle
 from softgrip.actuator.frequency import spring_constant
 from softgrip.actuator.section import Section, torque
 from softgrip.control.lqr import Weights, step_response
@@ -209,3 +209,10 @@ def _pushed_times_bent(section):
     inertia = section.width * section.height**3 / 12
     bent = pushed * 0.094 / (2 * 0.34e6 * inertia) * (1 + 0.15 * (area / wall - 1) / 0.34)
     return pushed * bent * pi
+
+
+@pytest.mark.parametrize("power", [1.0, 1.5, 2.5])
+def test_highest_power_is_that_of_eq_3_10_at_a_pressure_far_above_the_modulus(power):
+    finger = Finger(Section(0.020, 0.004, 0.030, 0.0015), fractional_power=power)
+    doubled = bending_angle(finger, 2e15) / bending_angle(finger, 1e15)
+    assert doubled == pytest.approx(2 ** numbers.highest_power(power), rel=1e-6)
