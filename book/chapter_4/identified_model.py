@@ -12,7 +12,7 @@ import numpy as np
 from softgrip.dynamics.identify import Identified, identify
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import DataFileError
-from softgrip.logs.pump import check_start, pump_of, swept_volume
+from softgrip.logs.pump import check_start, even_push, pump_of, swept_volume
 from softgrip.logs.reader import read_log
 from softgrip.logs.repeated_steps import read_alike
 from softgrip.provenance import data_file
@@ -70,9 +70,10 @@ def identify_capacity(path: Path, *, below: float = LOW_PRESSURE) -> float:
     """
     log = read_log(path)
     swept = swept_volume(path, log, flow(log["command"], pump_of(path, log)))
-    beyond = log["pressure"] > below
+    swept, pressure = even_push(path, log, swept, below)
+    beyond = pressure > below
     end = int(np.argmax(beyond)) if beyond.any() else beyond.size
-    pressure, swept = log["pressure"][:end], swept[:end]
+    pressure, swept = pressure[:end], swept[:end]
     if not (end >= 8 and swept @ pressure > 0):
         raise DataFileError(path, expected=f"a rise of pressure up to {below:g} Pa", got="none")
     check_start(path, swept, pressure)

@@ -110,6 +110,34 @@ def gaps_of(log: Log) -> tuple[Gap, ...]:
     return find_gaps(log["time"], log.header.period) if log.header.clocked else ()
 
 
+def late_start(log: Log) -> str:
+    """Return one sentence if a log does not begin with its run; else an empty one.
+
+    The time of a log is that of its run, whose first row is at 0 or a period later. What is further
+    from 0 has lost its first rows, or counts its time from elsewhere; which of both cannot be told.
+    """
+    if not (log.header.clocked and log["time"].size):
+        return ""
+    first, period = float(log["time"][0]), log.header.period
+    if -ROUNDING <= first / period <= LATE:
+        return ""
+    return f"the first row is at {first:.6g} s, not at 0 or {period:g} s"
+
+
+def refuse_late_start(path: Path | str, log: Log, why: str) -> None:
+    """Refuse a log that does not begin with its run; parameters as of `refuse_gaps`.
+
+    Raises:
+        DataFileError: If its first rows are missing, or its time counts from elsewhere.
+    """
+    if words := late_start(log):
+        raise DataFileError(
+            path,
+            expected=f"all rows from the start of the run on, with times since then, for {why}",
+            got=words,
+        )
+
+
 def places(gaps: Sequence[Gap]) -> str:
     """Return one sentence on where rows are missing.
 

@@ -10,8 +10,9 @@ from softgrip.arrays import Floats
 from softgrip.errors import DataFileError
 from softgrip.kept import Kept
 from softgrip.logs.gaps import intervals
-from softgrip.logs.pump import check_start, pump_of, swept_volume
+from softgrip.logs.pump import check_start, even_push, pump_of, swept_volume
 from softgrip.logs.reader import read_log
+from softgrip.logs.schema import Log
 from softgrip.provenance import Provenance, data_file
 from softgrip.pump import pressure as law
 from softgrip.pump.capacity import CapacityEstimate, estimate
@@ -61,11 +62,16 @@ class PressureComparison:
         return float(relative[np.argmax(np.abs(relative))])
 
 
-def _fit(path: Path | str, swept: Floats, pressure: Floats) -> tuple[float, float]:
-    """Return C of Eq. (4.5), fitted below `LOW`, and c of Eq. (4.7), fitted to the whole push."""
+def _fit_capacity(path: Path | str, log: Log, swept: Floats) -> float:
+    """Return C of Eq. (4.5), fitted below `LOW`."""
+    volume, pressure = even_push(path, log, swept, LOW)
     low = pressure < LOW
-    check_start(path, swept[low], pressure[low])
-    capacity = float(swept[low] @ swept[low] / (swept[low] @ pressure[low]))
+    check_start(path, volume[low], pressure[low])
+    return float(volume[low] @ volume[low] / (volume[low] @ pressure[low]))
+
+
+def _fit_growth(swept: Floats, pressure: Floats, capacity: float) -> float:
+    """Return c of Eq. (4.7), fitted to the whole push."""
     # The capacity may fall, but not to zero within the push.
     largest = swept[-1] / capacity
 
@@ -75,7 +81,7 @@ def _fit(path: Path | str, swept: Floats, pressure: Floats) -> tuple[float, floa
         return result
 
     found = least_squares(misfit, [-0.5], bounds=(-0.999, 10.0))
-    return capacity, float(found.x[0]) / largest
+    return float(found.x[0] / largest)
 
 
 def measure_noise() -> NoiseEstimate:
@@ -83,7 +89,7 @@ def measure_noise() -> NoiseEstimate:
     path = data_file(REFERENCE).path
     log = read_log(path)
     flow = pump_of(path, log).displacement * log["command"]
-    capacity, _ = _fit(path, swept_volume(path, log, flow), log["pressure"])
+    capacity = _fit_capacity(path, log, swept_volume(path, log, flow))
     model = ElastanceModel(log.header.period, FIRST_GUESS, prior(capacity))
     steps = intervals(log["time"], log.header.period)
     return estimate_noise(log["pressure"], flow, log["angle"], model, steps=steps)
@@ -135,12 +141,16 @@ def compare(path: Path | str, *, noise_factor: float = 1.0) -> PressureCompariso
         )
     flow = pump.displacement * log["command"]
     swept, steps = swept_volume(path, log, flow), intervals(time, log.header.period)
-    capacity, growth = _fit(path, swept, measured)
+    capacity = _fit_capacity(path, log, swept)
+    growth = _fit_growth(swept, measured, capacity)
     levels = reference_noise()
     noise = NoiseLevels(levels.pressure_step, levels.elastance_step * noise_factor, levels.sensor)
     model = ElastanceModel(log.header.period, noise, prior(capacity))
     estimated = estimate(measured, flow, log["angle"], model, steps=steps)
-    rises = flow[:-1] * steps * log.header.period * estimated.elastance[:-1]
+    # What holds at a sample counts until the next one; over a gap, straight from one to the other.
+    held, beyond = estimated.elastance[:-1], np.maximum(steps - 1, 0.0) / 2
+    over = steps * held + beyond * np.diff(estimated.elastance)
+    rises = flow[:-1] * log.header.period * over
     return PressureComparison(
         time,
         measured,

@@ -9,7 +9,7 @@ from typing import cast
 import numpy as np
 
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.logs.gaps import check_period, gaps_of, places
+from softgrip.logs.gaps import check_period, gaps_of, late_start, places
 from softgrip.logs.schema import EVENT, KNOWN_UNITS, SCHEMA, Log, LogHeader, SetUp
 from softgrip.provenance import Provenance, data_file
 
@@ -91,7 +91,7 @@ def read_log(path: Path | str) -> Log:
 
     Mended, and said in `Log.repairs`: a cut last line is left out, as is a last row with a value
     that is not a number; a row written twice counts once; a known other unit is converted. Missing
-    rows are not put back, but said there too, with their place.
+    rows are not put back, but said there too, with their place; so is a start later than a run's.
 
     Args:
         path: Of the log.
@@ -153,8 +153,8 @@ def read_log(path: Path | str) -> Log:
     log = Log(
         header, {name: table[:, k] for k, name in enumerate(names)}, tuple(events), tuple(repairs)
     )
-    gaps = gaps_of(log)
-    return replace(log, repairs=(*repairs, places(gaps))) if gaps else log
+    missing = filter(None, (late_start(log), places(gaps_of(log))))
+    return replace(log, repairs=(*repairs, *missing))
 
 
 def kept_log(name: str) -> Path:

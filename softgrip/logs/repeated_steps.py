@@ -8,7 +8,7 @@ import numpy as np
 
 from softgrip.arrays import Floats
 from softgrip.errors import DataFileError
-from softgrip.logs.gaps import refuse_gaps
+from softgrip.logs.gaps import refuse_gaps, refuse_late_start
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import Log
 
@@ -16,15 +16,18 @@ from softgrip.logs.schema import Log
 def read_alike(paths: Sequence[Path | str]) -> list[Log]:
     """Read logs that have the same times.
 
-    None may have a gap: what is made of runs is their mean at each time, their spectra, and models
-    that take input and output between two samples as known.
+    None may have a gap or lack its start: what is made of runs is their mean at each time, their
+    spectra, and models of a rest before the first sample that take input and output between two as
+    known.
 
     Raises:
-        DataFileError: If a log cannot be read, has a gap, or other times than the first.
+        DataFileError: If a log cannot be read, has a gap, lacks its start, or has other times than
+            the first.
     """
     logs = [read_log(path) for path in paths]
     time = logs[0]["time"]
     for path, log in zip(paths, logs, strict=True):
+        refuse_late_start(path, log, "a mean of runs")
         refuse_gaps(path, log, "a mean of runs")
         if log["time"].shape != time.shape or not np.allclose(log["time"], time):
             raise DataFileError(path, expected=f"the times of {paths[0]}", got="other times")

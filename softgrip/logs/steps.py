@@ -11,7 +11,7 @@ from scipy.ndimage import uniform_filter1d
 from softgrip.arrays import Floats, check_positive
 from softgrip.control.step_metrics import final_value, settling_time
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.logs.gaps import even_clock, find_gaps, places, refuse_gaps
+from softgrip.logs.gaps import even_clock, find_gaps, places, refuse_gaps, refuse_late_start
 from softgrip.logs.reader import read_log
 from softgrip.units import DEG
 
@@ -129,12 +129,13 @@ def judge_step_log(
 
     Args:
         path: Of a log with a column `reference` [rad], which either changes once or is one number
-            from the first sample on, the step being at that sample.
+            throughout, the step being at time 0.
         about, window: As of `judge_step`.
 
     Raises:
-        DataFileError: If the log has no reference, its reference is no single step, or more than
-            `BRIDGED` of the window is missing in one place.
+        DataFileError: If the log has no reference, its reference is no single step, rows are
+            missing at the start of a step at time 0, or more than `BRIDGED` of the window in one
+            place.
     """
     log = read_log(path)
     if "reference" not in log.columns:
@@ -143,14 +144,18 @@ def judge_step_log(
     clock = even_clock(log)
     reference, time = clock.nearest(log["reference"]), clock.lines(log["time"])
     changes = np.flatnonzero(np.diff(reference))
-    start = int(changes[0]) + 1 if changes.size else 0
-    initial = float(reference[0]) if changes.size else 0.0
+    start, begun, initial = 0, 0.0, 0.0
+    if changes.size:
+        start = int(changes[0]) + 1
+        begun, initial = float(time[start]), float(reference[0])
+    else:
+        refuse_late_start(path, log, "the time of the step")
     if changes.size > 1 or reference[-1] == initial:
         raise DataFileError(
             path, expected="a reference with one step", got=f"{changes.size} changes"
         )
     return judge_step(
-        time[start:] - time[start],
+        time[start:] - begun,
         clock.lines(log["angle"])[start:],
         float(reference[-1]),
         initial=initial,

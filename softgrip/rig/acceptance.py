@@ -14,7 +14,7 @@ import numpy as np
 
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.logs.fingers import column, fingers_of
-from softgrip.logs.gaps import EvenClock, even_clock, refuse_gaps
+from softgrip.logs.gaps import EvenClock, even_clock, refuse_gaps, refuse_late_start
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import Log
 from softgrip.logs.steps import AVERAGING, BRIDGED, WINDOW, judge_step
@@ -85,8 +85,8 @@ def sensor_bands(log: Log) -> list[Band]:
 
 
 def finger_bands(log: Log, clock: EvenClock, finger: int, experiment: Experiment) -> list[Band]:
-    """Judge the step of one finger, counted from 0; the reference steps at the first sample."""
-    time, angle = log["time"] - log["time"][0], log[column("angle", finger)]
+    """Judge the step of one finger, counted from 0; the reference steps at time 0."""
+    time, angle = log["time"], log[column("angle", finger)]
     target = float(log[column("reference", finger)][-1])
     step = judge_step(
         clock.lines(time), clock.lines(angle), target, about="own end", measured=clock.measured
@@ -126,8 +126,8 @@ def judge(path: Path | str, experiment: Experiment) -> tuple[Band, ...]:
 
     Raises:
         InvalidInputError: If there is no such experiment.
-        DataFileError: If the log cannot be read, has no such reference, or misses too many rows in
-            one place.
+        DataFileError: If the log cannot be read, has no such reference, or misses rows at the
+            start, or too many in one place.
     """
     if experiment not in get_args(Experiment):
         raise InvalidInputError(
@@ -138,6 +138,7 @@ def judge(path: Path | str, experiment: Experiment) -> tuple[Band, ...]:
     references = fingers_of(log, "reference")
     if len(references) != fingers or np.ptp(references, axis=1).any():
         raise DataFileError(path, expected="a constant reference for each finger", got="none")
+    refuse_late_start(path, log, "the time of the step")
     refuse_gaps(path, log, AVERAGING, above=BRIDGED * WINDOW)
     clock = even_clock(log)
     bands = sensor_bands(log)

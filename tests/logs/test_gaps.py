@@ -19,6 +19,7 @@ from softgrip.logs.staircase import judge_staircase, mean_edge
 from softgrip.logs.steps import judge_step, judge_step_log
 from softgrip.provenance import data_folder
 from softgrip.rig.__main__ import main
+from softgrip.rig.acceptance import judge
 from softgrip.rig.record import record
 from softgrip.rig.replay import Replay
 from softgrip.tactile.drift import DRIFT_WEIGHTS
@@ -72,6 +73,32 @@ def test_capacity_is_that_of_the_whole_push(path, whole, count, start):
     # The filter follows the last rows, and has long forgotten the gap.
     assert found.estimated.capacity[-1] == pytest.approx(before.estimated.capacity[-1], rel=1e-3)
     assert found.estimated.time[-1] == pytest.approx(before.estimated.time[-1])
+
+
+@pytest.mark.parametrize("count", [5, 10, 20, 40])
+@pytest.mark.parametrize("name", ["push-b", "push-d"])
+def test_capacity_of_a_fast_push_is_near_or_refused(path, name, count):
+    # In 40 rows these rise from nothing to above 30 kPa. What is left alone gives up to 27 % more.
+    kept = FOLDER / f"{name}.csv"
+    analyses = [identify_capacity, lambda log: compare(log).capacity]
+    before, near = [analysis(kept) for analysis in analyses], 0
+    for start in range(4, 60, 8):
+        without(path, kept, range(start, start + count))
+        for analysis, capacity in zip(analyses, before, strict=True):
+            try:
+                assert analysis(path) == pytest.approx(capacity, rel=0.04), start
+                near += 1
+            except DataFileError as error:
+                assert f"{count} rows missing" in str(error)  # noqa: PT017
+    assert near > 0
+
+
+@pytest.mark.parametrize("count", [10, 20])
+def test_filtered_pressure_rises_over_a_gap_as_without_one(path, count):
+    before = compare(FOLDER / "push-b.csv")
+    found = compare(without(path, FOLDER / "push-b.csv", range(54, 54 + count)))
+    # Its elastance doubles in 20 rows; held at that before them, the model would end 5 % lower.
+    assert found.filtered[-1] == pytest.approx(before.filtered[-1], rel=0.01)
 
 
 @pytest.mark.parametrize("start", [20, 43, 100, 200, 330, 500, 573])  # 43, 330, 573: over changes
@@ -242,9 +269,54 @@ def test_a_jump_of_the_clock_is_no_push(path):
 
 def test_a_push_without_its_beginning_is_refused(path):
     without(path, PUSH, range(20))
+    retimed(path, path, lambda t: t - 0.5)  # as if it had begun then
     for analysis in (identify_capacity, compare):
         with pytest.raises(DataFileError, match="from atmospheric pressure"):
             analysis(path)
+
+
+STARTS = [
+    (identify_capacity, "push-a"),
+    (compare, "push-a"),
+    (judge_step_log, "lqr-fast"),
+    (lambda path: judge(path, "lqr"), "lqr-fast"),
+    (lambda path: judge(path, "gripper"), "gripper-fast-1"),
+    (lambda path: read_step_test([path]), "step-60-1"),
+    (lambda path: identify_finger([path]), "step-60-1"),
+    (lambda path: read_runs([path]), "gripper-open-1"),
+]
+
+
+@pytest.mark.parametrize("lost", [2, 3, 20])
+@pytest.mark.parametrize(("analysis", "name"), STARTS)
+def test_a_log_without_its_start_is_refused(path, analysis, name, lost):
+    # A step is settled so much sooner, a push has swept more, a finger was not at rest.
+    without(path, FOLDER / f"{name}.csv", range(lost))
+    with pytest.raises(DataFileError, match=r"from the start of the run.*the first row is at"):
+        analysis(path)
+
+
+def test_a_step_without_its_first_row_settles_as_the_whole_one(path):
+    before, found = judge_step_log(STEP), judge_step_log(without(path, STEP, [0]))
+    assert found.settled_5_percent == pytest.approx(before.settled_5_percent, abs=1e-9)
+    (bands, whole) = (judge(log, "lqr") for log in (path, STEP))
+    assert bands[2].found == pytest.approx(whole[2].found, abs=1e-3)  # one value less in the mean
+
+
+def test_a_log_without_its_start_says_so(path):
+    without(path, STEP, range(10))
+    words = "the first row is at 0.25 s, not at 0 or 0.025 s"
+    assert read_log(path).repairs == (words,)
+    assert words in show("Figure 4.7", logs=[path])._repr_mimebundle_()["text/html"]
+
+
+def test_a_change_of_the_reference_needs_no_start(path):
+    def at_two(rows):
+        return [[*row[:6], "0.0" if float(row[0]) < 2 else "1.0", row[7]] for row in rows]
+
+    whole = judge_step_log(rewrite(path, STEP, at_two))
+    cut = judge_step_log(without(path, path, range(20)))
+    assert cut.settled_5_deg == whole.settled_5_deg
 
 
 @pytest.mark.parametrize(
