@@ -71,7 +71,9 @@ def identify(
     the output are independent: a drift, or counts coarser than the noise, makes them too narrow.
 
     Args:
-        time: Increasing, s, shape (N,), N >= 8; the steps may differ.
+        time: Increasing, s, shape (N,), N >= 8; the steps may differ. Where samples are missing,
+            the input goes on as `hold` says: if it did not, no interval tells. Logs are read by
+            `softgrip.logs.repeated_steps`, which refuses gaps.
         input: Pressure, Pa, shape (N,), not constant (or other than `initial_input`).
         output: Angle, rad, shape (N,), not constant.
         initial_input: Input before the first sample, Pa; the first sample if None.

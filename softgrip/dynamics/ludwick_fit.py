@@ -69,8 +69,8 @@ def fit_finger(
     independent errors of the angle: where the model itself is wrong they are too narrow.
 
     Args:
-        time: Increasing, s, shape (N,), N >= 8.
-        pressure: Gauge, Pa, shape (N,), not zero at the end.
+        time: Increasing, s, shape (N,), N >= 8, with no gap in which the pressure changes.
+        pressure: Gauge, Pa, shape (N,), not zero at the end; a straight line between samples.
         angle: rad, shape (N,), above zero at the end.
         force_per_pressure: F over P, N/Pa, > 0.
         fractional_power: n, >= 1, to hold (1 for the linear model of Eq. (5.17)); None to fit it.
