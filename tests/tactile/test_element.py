@@ -38,6 +38,7 @@ def test_closed_form_is_the_quadrature(shape, cut, width, height):
     found = mean * height / (STATED_MODULUS * element.base_area)
     # The quadrature asks for 1e-10.
     assert compliance(element) == pytest.approx(found, rel=1e-9)
+    assert shortening(element, 0.3) == pytest.approx(0.3 * found, rel=1e-9)
 
 
 @pytest.mark.parametrize("shape", TAPERED)
