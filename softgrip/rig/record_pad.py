@@ -8,6 +8,7 @@ from softgrip.arrays import check_positive
 from softgrip.board.driver import Board
 from softgrip.board.protocol import TELEMETRY_PERIOD
 from softgrip.board.session import Telemetry
+from softgrip.errors import InvalidInputError
 from softgrip.logs.contacts import PRESS, REST, WEIGHT
 from softgrip.logs.queued_writer import RunLog, plain
 from softgrip.logs.schema import PAD_CHANNELS
@@ -61,8 +62,11 @@ def record_pad(
 
     Raises:
         BoardError: If the line is lost. The log is closed and its last row says it.
-        InvalidInputError: If the path exists, or a duration is out of range.
+        InvalidInputError: If no pad can be heard there, the path exists, or a duration is out of
+            range.
     """
+    if not isinstance(rig, PadSource):
+        raise InvalidInputError("rig", expected="a Board or a SimulatedPad", got=rig)
     given: Sequence[Step] = steps if isinstance(steps, Sequence) else [("", steps)]
     for _, seconds in given:
         check_positive(duration=seconds)

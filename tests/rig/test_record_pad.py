@@ -13,6 +13,7 @@ from softgrip.logs.reader import read_log
 from softgrip.logs.schema import PAD_CHANNELS
 from softgrip.provenance import data_file
 from softgrip.rig.check import check
+from softgrip.rig.connect import connect
 from softgrip.rig.record_pad import calibration_steps, record_pad, weight_steps
 from softgrip.rig.simulated_pad import SimulatedPad
 from softgrip.simulator.chance import SEED
@@ -59,6 +60,13 @@ def test_check_looks_at_the_pad_and_finds_a_dead_channel(board):
         found = {one.what: one for one in check(rig)}
     assert found["telemetry"].good
     assert {name for name in PAD_CHANNELS if not found[name].good} == {"element_4"}
+
+
+def test_a_rig_without_a_pad_is_refused_before_anything_is_said(path):
+    with connect("simulated") as finger:
+        with pytest.raises(InvalidInputError, match="a Board or a SimulatedPad, got <softgrip"):
+            record_pad(finger, STEPS, path, say=pytest.fail)
+        assert not path.exists()
 
 
 SECONDS = 1.2
