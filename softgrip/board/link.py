@@ -77,7 +77,8 @@ class SerialLink:
     it runs under Linux and this user may see it (see `holders`); if it comes later, the
     kernel of Linux or macOS refuses it, unless it is root's. Windows lets nobody open a port twice.
     Processes forked while a port is open can use it: fork before, or start them by "spawn".
-    A socket has the peers that its server lets in, and none of this.
+    A socket has the peers that its server lets in, and none of this; nor has a port that is named
+    by a URL, such as "spy:///dev/ttyACM0".
 
     A pseudo-terminal whose host was killed stays closed to all but root until its server ends.
     """
