@@ -86,12 +86,14 @@ def even_push(path: Path | str, log: Log, swept: Floats, below: float) -> tuple[
     Raises:
         DataFileError: If one gap hides more than `MOST_HIDDEN` of the volume swept until there.
     """
-    clock = even_clock(log)
+    gaps, clock = gaps_of(log), even_clock(log)
+    if not gaps:
+        return swept, log["pressure"]
     volume, pressure = clock.lines(swept), clock.lines(log["pressure"])
     end = float(volume[pressure < below].max(initial=0.0))
     if hidden := [
         gap
-        for gap in gaps_of(log)
+        for gap in gaps
         if swept[gap.row] < end and swept[gap.row + 1] - swept[gap.row] > MOST_HIDDEN * end
     ]:
         raise DataFileError(
