@@ -14,6 +14,8 @@ import time
 from collections.abc import Iterable
 from pathlib import Path
 
+from IPython import get_ipython
+
 import softgrip
 from softgrip.reads import listen
 
@@ -74,7 +76,10 @@ def _watched(files: Iterable[Path]) -> set[Path]:
 
 
 def record(trace: str) -> None:
-    """Watch this process; when it ends, write the watched files that it used into ``trace``.
+    """Watch this process; write the watched files that it used into ``trace``.
+
+    That happens when it ends and, in IPython, after each cell: who asked for the cells may not wait
+    for the end, on a busy machine, and kill the process.
 
     Modules are taken from `sys.modules` (an import opens the compiled file, not the source), data
     files and listed folders from the interpreter's own audit. A file that was changed while the
@@ -83,11 +88,12 @@ def record(trace: str) -> None:
     opened: set[Path] = set()
     started = time.time()
 
-    def write() -> None:
+    def write(*_: object) -> None:
         modules = (
             Path(file).resolve()
-            for module in list(sys.modules.values())
-            if (file := getattr(module, "__file__", None)) is not None
+            for name, module in list(sys.modules.items())
+            if name.partition(".")[0] in ("softgrip", "book")
+            and (file := getattr(module, "__file__", None)) is not None
         )
         files = sorted(_watched(opened) | _watched(modules))
         content = {
@@ -100,8 +106,11 @@ def record(trace: str) -> None:
         Path(trace).parent.mkdir(parents=True, exist_ok=True)
         Path(trace).write_text(json.dumps(content, indent=1))
 
+    Path(trace).unlink(missing_ok=True)  # what an earlier process read is not what this one does
     listen(opened.add, "open", "os.listdir", "os.scandir")
     atexit.register(write)
+    if shell := get_ipython():
+        shell.events.register("post_run_cell", write)
 
 
 def is_current(trace: Path, around: dict[str, str]) -> bool:

@@ -26,7 +26,7 @@ kernelspec:
 CONFIG = """\
 title: Small
 only_build_toc_files: true
-execute: {execute_notebooks: cache, timeout: 60}
+execute: {execute_notebooks: cache, timeout: -1}
 sphinx:
   extra_extensions: [book.build.extension]
   config:

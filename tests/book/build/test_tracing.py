@@ -35,6 +35,23 @@ def test_what_was_not_used_is_not_recorded(tmp_path, root):
     }
 
 
+def test_a_kernel_that_is_killed_has_recorded_its_cells(tmp_path, root):
+    trace = tmp_path / "t.json"
+    trace.write_text("of an earlier process")
+    cells = [
+        f"from book.build import tracing; tracing.record({str(trace)!r})",
+        "import softgrip.units",
+        "import os; os._exit(9)",
+    ]
+    code = (
+        "from IPython.core.interactiveshell import InteractiveShell\n"
+        f"shell = InteractiveShell.instance()\nfor cell in {cells!r}: shell.run_cell(cell)"
+    )
+    ended = subprocess.run([sys.executable, "-c", code], cwd=root, env=os.environ)
+    assert ended.returncode == 9
+    assert "softgrip/units.py" in json.loads(trace.read_text())
+
+
 def test_listed_folder_is_recorded(tmp_path, root):
     code = "from book.companion.claims import read_claims; read_claims()"
     assert "data/claims" in run(code, tmp_path / "t.json", root)
