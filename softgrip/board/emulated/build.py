@@ -1,11 +1,12 @@
 """What the emulator runs, built once a process: the firmware by avr-gcc, the harness by gcc."""
 
+import atexit
 import ctypes
 import shutil
 import subprocess
 from functools import cache
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import mkdtemp
 
 from softgrip.board.firmware.header import SKETCH
 from softgrip.board.protocol import SetUp
@@ -52,13 +53,15 @@ def _run(*command: object) -> str:
 
 
 @cache
-def _folder() -> TemporaryDirectory[str]:
-    return TemporaryDirectory(prefix="softgrip-emulator-")
+def _folder() -> Path:
+    """Return a folder that goes when the process ends, not when this is forgotten."""
+    folder = Path(mkdtemp(prefix="softgrip-emulator-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
 
 
 def _file(name: str) -> Path:
-    """Return a path in a folder that goes when the process ends."""
-    return Path(_folder().name) / name
+    return _folder() / name
 
 
 @cache
