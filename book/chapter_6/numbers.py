@@ -44,6 +44,24 @@ def projection(
     return found if digits is None else round(found, digits)
 
 
+def rest_angle(
+    other_angle: float, other: float, own: float, deviation: float = 0.0, way: int = 0
+) -> float:
+    """Return where a finger rests if another one rests at an angle under the same pressure.
+
+    >>> rest_angle(50.0, 3.0, 2.0), rest_angle(50.0, 3.0, 2.0, 20.0, way=1)
+    (75.0, 50.0)
+
+    Args:
+        other_angle: Of the other, in any unit, which is that of the result.
+        other, own: Stiffnesses, the input alike.
+        deviation: Of both from these, %: the own one up and the other down if `way` is 1.
+        way: 1, -1, or 0 for none.
+    """
+    off = way * deviation / 100
+    return other_angle * other * (1 - off) / (own * (1 + off))
+
+
 def inverse_denominator(gain: float) -> float:
     """Return the common denominator of the mean of the elements' inverses."""
     return float(1 / mean_inverse(fingers([1.0, 1.0], gain=gain)).polynomials[0, 0])
