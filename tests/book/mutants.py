@@ -5,7 +5,7 @@
 reaches. Each is put in the place of the sound one in a process of its own, and the claims that
 reach it are judged, the quickest first, until one of them notices. What changes neither an outcome
 nor a value has survived: a claim may be missing, the change may make no difference, or it is for
-the function's own tests to notice.
+the function's own tests to notice. ``--tests`` asks these too, of laws of ``softgrip``.
 """
 
 import argparse
@@ -18,8 +18,13 @@ import sys
 import textwrap
 import time
 from collections.abc import Callable, Iterator
+from contextlib import redirect_stdout
 from dataclasses import dataclass
+from io import StringIO
+from pathlib import Path
 from types import CodeType, FunctionType
+
+import pytest
 
 from book.companion.claims import Claim, read_claims
 from book.companion.ledger import changes, expected
@@ -32,8 +37,9 @@ SWAPS = {
     ast.Div: ast.Mult,
     ast.Pow: ast.Mult,
 }
+ROOT = Path(__file__).parents[2]
 WITHIN = 60.0
-"""s for one mutant."""
+"""s for one mutant, ten times as long for its tests."""
 READ_ONLY = ("softgrip.reads", "book.companion.claims")
 """Modules whose caches hold no result of a law."""
 
@@ -190,12 +196,44 @@ def noticed_by(broken: Mutant, claims: list[Claim]) -> str:
     return ""
 
 
+def tests_of(module: str) -> list[Path]:
+    """Return a module's test files: its own, its examples, those of its package that name it."""
+    parent, _, name = module.removeprefix("softgrip.").rpartition(".")
+    folder = ROOT / "tests" / parent.replace(".", "/")
+    own = [folder / f"test_{name}.py", ROOT / f"{module.replace('.', '/')}.py"]
+    naming = [one for one in sorted(folder.glob("test_*.py")) if name in one.read_text("utf-8")]
+    return [*dict.fromkeys(one for one in own + naming if one.exists())]
+
+
+class Failures(list[str]):
+    """A plug-in of pytest: the tests that failed."""
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Note a test that failed."""
+        if report.failed:
+            self.append(report.nodeid)
+
+
+def failing(broken: Mutant, files: list[Path]) -> str:
+    """Return the first test that fails on a mutant, or nothing."""
+    broken.function.__code__ = broken.code()
+    forget()
+    failures = Failures()
+    for file in files:
+        with redirect_stdout(StringIO()):
+            pytest.main(["-x", "-p", "no:cacheprovider", str(file)], plugins=[failures])
+        if failures:
+            return failures[0]
+    return ""
+
+
 def main() -> None:
     """Draw, break, judge, list."""
     parser = argparse.ArgumentParser(prog="python -m tests.book.mutants", description=__doc__)
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--chapter", type=int)
+    parser.add_argument("--tests", action="store_true")
     asked = parser.parse_args()
     by = judged_by(read_claims(asked.chapter))
     every = [(broken, by[key]) for key in sorted(by) for broken in mutants(*key)]
@@ -203,10 +241,12 @@ def main() -> None:
     print(f"{len(every)} mutants of {len(by)} functions, {len(drawn)} drawn", flush=True)
     survivors = 0
     for broken, claims in drawn:
-        by_claim = in_process(noticed_by, broken, claims, wait=WITHIN)
-        fate = {None: "TOO LONG", "": "SURVIVED"}.get(by_claim, "noticed ")
+        by_what = in_process(noticed_by, broken, claims, wait=WITHIN)
+        if by_what == "" and asked.tests and broken.module.startswith("softgrip."):
+            by_what = in_process(failing, broken, tests_of(broken.module), wait=10 * WITHIN)
+        fate = {None: "TOO LONG", "": "SURVIVED"}.get(by_what, "noticed ")
         survivors += fate == "SURVIVED"
-        print(fate, broken, by_claim or f"{len(claims)} claims", sep="  ", flush=True)
+        print(fate, broken, by_what or f"{len(claims)} claims", sep="  ", flush=True)
     print(f"{survivors} of {len(drawn)} survived")
 
 
