@@ -22,7 +22,12 @@ from softgrip.actuator.design import (
     InfeasibleDesignError,
     objective,
 )
-from softgrip.actuator.frequency import natural_frequency, rubber_mass
+from softgrip.actuator.frequency import (
+    natural_frequency,
+    rubber_mass,
+    stiffness_product,
+    stiffness_product_for,
+)
 from softgrip.actuator.printed import table_3_2, table_3_3
 from softgrip.actuator.section import Section, chamber_area, torque
 from softgrip.control.lqr import Weights, linear_settling_time
@@ -240,6 +245,26 @@ def frequency_at(
     sizes = _section({"top": top, "bottom": bottom, "width": width, "wall": 0.0})
     finger = Finger(sizes, length * MM, modulus * MPa, power)
     return float(natural_frequency(finger, mass / G if newtons else mass))
+
+
+def product_frequency(
+    section: Mapping[str, float],
+    modulus: float,
+    length: float,
+    power: float = SCRIPT_POWER,
+    mass: float = SCRIPT_MASS,
+) -> float:
+    """Return the omega_n to which Eq. (3.19) gives a section's ``E w (a + b)**(n + 2)``, rad/s.
+
+    Args:
+        section: Its dimensions by name, mm.
+        modulus: E, MPa.
+        length: L, mm.
+        power: n.
+        mass: M, kg.
+    """
+    made = stiffness_product(_section(section), modulus * MPa, power)
+    return float(sqrt(made / stiffness_product_for(1.0, mass, power, length * MM)))
 
 
 def scaled_frequency(

@@ -114,6 +114,12 @@ def test_scaled_frequency_is_that_of_the_formula_whatever_the_power():
         assert other == pytest.approx(scaled, rel=1e-12)
 
 
+def test_frequency_of_eq_3_19_is_that_of_eq_3_16():
+    for n in (1.0, 1.7, 2.5):
+        found = numbers.product_frequency(DESIGN_1, 0.34, 94, n, 0.35)
+        assert found == pytest.approx(numbers.frequency_at(20, 4, 30, n, 0.35, 0.34, 94), rel=1e-12)
+
+
 def _second_frequency(guess):
     """Solve the beam equation u'''' = k u as a boundary value problem, without a mass."""
     import numpy as np
