@@ -8,6 +8,7 @@ from softgrip.logs.contacts import HELD, STILL, TRUTH, read_contacts, read_weigh
 from softgrip.logs.schema import PAD_CHANNELS, LogHeader
 from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance
+from softgrip.tactile.contact_pose import FELT
 from softgrip.units import GRAM_FORCE
 
 PERIOD = 0.025
@@ -61,6 +62,14 @@ def test_each_press_that_is_held_is_one_contact(path):
     found = read_contacts(write(path, [*CALIBRATION, *presses]))
     assert found.kinds.tolist() == ["", ""]
     np.testing.assert_allclose(found.responses[:, 1], [0.4, 0.2], atol=0.01)
+
+
+@pytest.mark.parametrize(("left", "contacts"), [(0.4, 2), (0.6, 1)])
+def test_press_ends_where_half_of_what_is_felt_is_left(path, left, contacts):
+    part = left * FELT / CARROT.max()
+    presses = [("contact: pear", 1.0, CARROT, 1.0), ("", 0.5, part * CARROT, 0.0)]
+    presses += [("", 1.0, 0.9 * CARROT, 1.0)]
+    assert len(read_contacts(write(path, [*CALIBRATION, *presses]))) == contacts
 
 
 def test_of_one_press_the_hardest_that_is_held_still_counts(path):

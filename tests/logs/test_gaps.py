@@ -215,8 +215,17 @@ def test_rows_another_time_apart_than_the_header_says_are_refused(path, factor):
         read_log(path)
 
 
-def test_a_log_without_every_second_row_is_refused(path):
-    without(path, PUSH, range(0, 272, 2))
+@pytest.mark.parametrize(
+    "missing",
+    [
+        range(0, 272, 2),
+        range(2, 272, 2),  # one interval that is whole confirms no header
+        [1, *range(3, 272)],  # and a single one may not be
+    ],
+    ids=["all", "but one", "two rows left"],
+)
+def test_a_log_without_every_second_row_is_refused(path, missing):
+    without(path, PUSH, missing)
     with pytest.raises(DataFileError, match=r"median of 0\.05 s"):
         read_log(path)
 

@@ -123,7 +123,9 @@ def test_cut_last_line_is_left_out_and_said(path, lost):
     path.write_bytes(whole[:-lost])
     found = read_log(path)
     assert len(found["time"]) == (4 if lost <= last else 3)
-    assert (len(found.repairs) == 1) == (lost != last)
+    number = len(whole.splitlines()) - (lost > last)
+    words = f"the cut last line, {number}, was left out"
+    assert found.repairs == ((words,) if lost != last else ())
 
 
 def test_other_unit_is_converted_and_said(path):
@@ -157,6 +159,8 @@ def test_lines_of_another_system_are_read(path):
     [
         (lambda x: [s.replace("angle [rad]", "angel [rad]") for s in x], "no angle", 5),
         (lambda x: [s.replace("[Pa]", "[bar]") for s in x], "pressure in Pa", 5),
+        (lambda x: [s.replace(",event", ",note") for s in x], "'event', got note", 5),
+        (lambda x: x[:-6], "a line of column names", 5),
         (lambda x: [*x[:-2], x[-1], x[-2]], "a time above 0.1 s", 0),
         (lambda x: [*x[:-2], x[-2].replace("0.1,", "nan,", 1), x[-1]], "finite numbers", 1),
         (lambda x: [*x[:-2], x[-2].replace("0.1,", "x,", 1), x[-1]], "numbers", 1),

@@ -133,6 +133,12 @@ def test_curve_that_cannot_be_fitted(strain, stress, loss, expected):
         ludwick.fit(strain, stress, loss=loss)
 
 
+@pytest.mark.parametrize("where", [0.12, 0.5, 0.88])
+def test_valley_beside_an_end_of_the_scan_is_found(where):
+    found = ludwick.least(lambda x: (x - where) ** 2, np.linspace(0, 1, 11), name="x")
+    assert found == pytest.approx(where, abs=1e-8)
+
+
 @pytest.mark.parametrize("loss", LOSSES)
 def test_power_outside_the_searched_range(loss):
     e = np.linspace(0.5, 2, 30)

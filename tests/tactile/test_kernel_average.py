@@ -11,9 +11,11 @@ from scipy.stats import norm
 
 from softgrip.errors import InvalidInputError
 from softgrip.tactile.kernel_average import (
+    BLOCK,
     BOUND,
     EXPONENT,
     MARGIN,
+    blocks,
     exact_average,
     fast_average,
     gaussian,
@@ -159,6 +161,11 @@ def test_margin_is_within_the_spread_that_is_planned():
     points = np.linspace(0, 1, 30)
     fast, exact = both(queries, points, points**2, 1.0)
     assert abs(fast - exact).max() < BOUND + ROUNDING
+
+
+def test_blocks_hold_no_more_than_they_may_or_one_row():
+    assert [*blocks(3, BLOCK // 2)] == [slice(0, 2), slice(2, 3)]
+    assert [*blocks(2, 2 * BLOCK)] == [slice(0, 1), slice(1, 2)]
 
 
 def test_compact_kernel_falls_to_the_nearest_points():

@@ -23,7 +23,7 @@ from softgrip.control.state_space_plant import StateSpacePlant
 from softgrip.dynamics.second_order import full_state_space
 from softgrip.errors import DataFileError, InvalidInputError, UnknownNameError
 from softgrip.logs.reader import read_log
-from softgrip.logs.staircase import judge_staircase, lag, mean_edge
+from softgrip.logs.staircase import judge_staircase
 from softgrip.logs.steps import judge_step, judge_step_log, smoothed
 from softgrip.provenance import data_file
 from softgrip.simulator import calibration
@@ -227,15 +227,6 @@ def test_staircase_has_the_printed_hold_and_comes_back():
     np.testing.assert_array_equal(reference, reference[::-1])
     with pytest.raises(InvalidInputError):
         staircase(increment=7 * DEG)
-
-
-@pytest.mark.parametrize("samples", [0, 8, 20])
-def test_lag_and_mean_edge_of_a_delayed_staircase(samples):
-    reference = staircase()
-    late = np.concatenate([np.zeros(samples), reference])[: reference.size]
-    assert lag(reference, late, 0.025) == pytest.approx(samples * 0.025)
-    time, share = mean_edge(np.arange(reference.size) * 0.025, reference, late)
-    np.testing.assert_allclose(share, time >= samples * 0.025 - 1e-9, atol=1e-9)
 
 
 def test_logs_without_a_fitting_reference_are_refused(tmp_path):
