@@ -57,6 +57,30 @@ def test_agrees_with_a_general_fitter_on_a_perfect_step():
     assert errors == pytest.approx(np.sqrt(np.diag(covariance)), rel=0.02)
 
 
+def test_numbers_of_a_short_record_are_those_of_the_textbook():
+    """Student's t, 12 samples less 4 parameters: 2.306 in any table."""
+    t = np.linspace(0, 6, 12)
+    u = np.interp(t, TIME, RISING)
+    y = response(SecondOrder(2.86, 0.7), t, u) + np.random.default_rng(0).normal(0, 1e3, t.size)
+    found = identify(t, u, y)
+    for e in (found.natural_frequency, found.damping_ratio, found.gain, found.offset):
+        half = pytest.approx(2.306 * e.standard_error, rel=3e-4)
+        assert (e.high - e.value, e.value - e.low) == (half, half)
+    left = found.fitted - y
+    assert found.rms == pytest.approx(np.sqrt(left @ left / 12))
+    explained = 1 - np.linalg.norm(left) / np.linalg.norm(y - y.mean())
+    assert found.fit_percent == pytest.approx(100 * explained)
+
+
+def test_motion_is_told_up_to_half_the_sampling_rate():
+    t = np.arange(40.0)
+    u = np.random.default_rng(2).normal(size=t.size)
+    found = identify(t, u, response(SecondOrder(2.5, 0.3), t, u))
+    assert found.natural_frequency.value == pytest.approx(2.5, rel=1e-6)
+    with pytest.raises(InvalidInputError, match="determines the parameters"):
+        identify(t, u, response(SecondOrder(3.2, 0.3), t, u))
+
+
 def test_units_scale_the_gain_only():
     y = response(SecondOrder(2.86, 0.7, 2.4e-5), TIME, RISING)
     y = y + np.random.default_rng(1).normal(0, 0.03, y.size)

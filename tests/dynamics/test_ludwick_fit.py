@@ -44,6 +44,18 @@ def test_intervals_hold_the_truth_about_as_often_as_they_say():
     assert hits.sum() < 3 * runs
 
 
+def test_interval_of_a_short_record_is_that_of_the_textbook():
+    """Of logarithms. Student's t, 12 samples less 3 parameters: 2.262 in any table."""
+    few = slice(0, None, 10)
+    angle = CLEAN[few] + 1e-3 * np.random.default_rng(1).normal(size=12)
+    found = fit_finger(
+        TIME[few], PRESSURE[few], angle, force_per_pressure=F, fractional_power=2.365
+    )
+    for e in (found.mass, found.damping, found.stiffness):
+        half = pytest.approx(2.262 * e.standard_error / e.value, rel=3e-4)
+        assert (np.log(e.high / e.value), np.log(e.value / e.low)) == (half, half)
+
+
 def test_linear_model_is_that_of_the_other_identification():
     # `identify` solves between the samples exactly, and fits an offset besides.
     finger = linear_finger(0.04, 0.11, 0.1)

@@ -19,9 +19,11 @@ POINTS = 1j * np.geomspace(0.01, 1000, 40)
 
 
 @pytest.mark.parametrize("printed", [FAST, SLOW])
-def test_state_space_has_the_printed_coefficients(printed):
+@pytest.mark.parametrize("factor", [1.0, 3.0])
+def test_state_space_has_the_printed_coefficients(printed, factor):
     expected = np.polyval(printed[0], POINTS) / np.polyval(printed[1], POINTS)
-    assert filter_state_space(*printed)(POINTS).ravel() == pytest.approx(expected, rel=1e-8)
+    found = filter_state_space(*(np.multiply(factor, part) for part in printed))
+    assert found(POINTS).ravel() == pytest.approx(expected, rel=1e-8)
 
 
 @pytest.mark.parametrize(("printed", "fastest"), [(FAST, 260), (SLOW, 42)])
