@@ -92,6 +92,7 @@ def test_only_ratios_to_the_force_are_known():
     [
         {"angle": -CLEAN},
         {"angle": 0 * CLEAN + 1},
+        {"angle": CLEAN - 5 * ((TIME > 5.35) & (TIME < 5.65))},  # below zero in the last tenth
         {"pressure": 0 * PRESSURE},
         {"time": 0 * TIME},
         {"time": TIME[:4], "pressure": PRESSURE[:4], "angle": CLEAN[:4]},
@@ -100,7 +101,8 @@ def test_only_ratios_to_the_force_are_known():
 )
 def test_bad_records_are_refused(change):
     good = {"time": TIME, "pressure": PRESSURE, "angle": CLEAN, "force_per_pressure": F}
-    with pytest.raises(InvalidInputError):
+    words = "three finite arrays|above zero over the last tenth|force_per_pressure"
+    with pytest.raises(InvalidInputError, match=words):
         fit_finger(**{**good, **change}, fractional_power=2.0)
 
 

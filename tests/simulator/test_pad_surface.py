@@ -1,5 +1,7 @@
 """Surfaces of objects over the pad: circles, turns, edges and roughness."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -50,6 +52,13 @@ def test_roughness_has_the_deviation_that_is_asked_for():
     drawn = [roughness(u, v, 0.3 * MM, chance) for _ in range(200)]
     # 200 surfaces of 12 waves: the deviation is known to about 2 %.
     assert np.std(drawn) == pytest.approx(0.3 * MM, rel=0.05)
+
+
+def test_rough_object_is_a_smooth_one_and_its_roughness():
+    rod, pose, on = pad_object("rod 10 mm"), Pose((0.0, 0.0), 0.0), POINTS * [1.0, 0.5]
+    rough = gap(replace(rod, roughness=0.1 * MM), pose, on, np.random.default_rng(1))
+    alone = roughness(*on.T, 0.1 * MM, np.random.default_rng(1))
+    np.testing.assert_allclose(rough, gap(rod, pose, on) + alone, atol=1e-12)
 
 
 def test_seven_objects_of_each_kind():
