@@ -24,6 +24,7 @@ from softgrip.arrays import Floats
 from softgrip.kept import Kept
 from softgrip.provenance import Provenance
 from softgrip.tactile import published_readings
+from softgrip.tactile.accuracy import CONFIDENCE
 from softgrip.tactile.force_comparison import (
     cross_validated,
     regressors,
@@ -110,7 +111,7 @@ class RegressorError:
 
 
 def _interval(values: Floats) -> tuple[float, float]:
-    low, high = np.quantile(values, (0.025, 0.975))
+    low, high = np.quantile(values, ((1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2))
     return float(low), float(high)
 
 

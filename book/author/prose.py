@@ -4,10 +4,11 @@ from functools import cache
 
 from book.author import forces, scripts, tables
 from book.author.forces import LEVEL, LINE, PARABOLA, PUBLISHED, READING, SIMULATED
-from softgrip.actuator.design import Range
+from softgrip.actuator.design import DesignProblem, Range
 from softgrip.actuator.printed import table_3_2
 from softgrip.control.step_metrics import StepMetrics
 from softgrip.tactile import published_readings
+from softgrip.tactile.accuracy import CONFIDENCE
 from softgrip.units import MM
 
 DESIGN, CHECK = scripts.inputs("design"), scripts.inputs("check")
@@ -53,6 +54,7 @@ WORDS = {
     "most_height": lambda: f"{DESIGN['bounds']['height'][1]:g}",
     "most_bottom": lambda: f"{DESIGN['bounds']['bottom'][1]:g}",
     "pressure": lambda: f"{DESIGN['pressure']:g}",
+    "stated_power": lambda: f"{DesignProblem().fractional_power:g}",
     "top_1": lambda: f"{_top(_band(1)):.1f}",
     "top_2": lambda: f"{_top(_band(2)):.2f}",
     "top_3": lambda: f"{_top(_band(3)):.2f}",
@@ -84,6 +86,7 @@ WORDS = {
     "largest_spread": lambda: f"{_repeated().largest:.3f}",
     "levels_above": lambda: f"{_repeated().above}",
     "neurons": lambda: f"{NETWORK['neurons']}",
+    "confidence": lambda: f"{100 * CONFIDENCE:g}",
     "line": lambda: _error(LINE, LEVEL, 3),
     "line_low": lambda: f"{_errors(PUBLISHED, LEVEL)[LINE].low:.3f}",
     "line_high": lambda: f"{_errors(PUBLISHED, LEVEL)[LINE].high:.3f}",

@@ -28,6 +28,7 @@ from book.chapter_3.numbers import lqr_settling_on_rig
 from book.chapter_3.numbers import optimum as best
 from book.chapter_3.torque_and_bending import DESIGNS, blocked_torque
 from book.companion.simulated_logs import STEP
+from book.companion.verdict import recomputed
 from softgrip.actuator.bending import Finger, free_bending
 from softgrip.actuator.certificate import TOLERANCE
 from softgrip.actuator.design import (
@@ -38,7 +39,7 @@ from softgrip.actuator.design import (
     objective,
 )
 from softgrip.actuator.elasticity import Elastic
-from softgrip.actuator.fem_results import BEAM, CHAMBERS
+from softgrip.actuator.fem_results import BEAM, CHAMBERS, read
 from softgrip.actuator.frequency import natural_frequency
 from softgrip.actuator.optimize import optimal_design
 from softgrip.actuator.printed import (
@@ -98,6 +99,11 @@ def _off(chambers: int) -> float:
     return 100 * max(abs(part - 1) for part in parts)
 
 
+def _scale_factors() -> list[float]:
+    """Return torque by the scale over torque, for each depth of the grooves."""
+    return [found.scale_torque / found.torque for found in read("groove_floor")]
+
+
 def _least_times(step: int) -> list[float]:
     return sorted(least_time(step, band) for band in BANDS.values())
 
@@ -116,6 +122,7 @@ WORDS = {
     "script_swings": lambda: f"{natural_frequency(_finger(SCRIPT_POWER), SCRIPT_MASS):.2f}",
     "script_sum": lambda: f"{_sum(SCRIPT_POWER):.2f}",
     "rubber_sum": lambda: f"{_sum(material('Dragon Skin 20').fractional_power):.2f}",
+    "added": lambda: f"{recomputed(3, '3.4-half-newton-metre').value:.2f}",
     "tube": lambda: f"{100 * (1 - 2 * Elastic().poisson_ratio):.0f}",
     # Table 3.2.
     "top_2": lambda: f"{_top(2):.2f}",
@@ -153,6 +160,7 @@ WORDS = {
     "step": lambda: f"{STEP / DEG:.0f}",
     "criteria": lambda: " and ".join(f"{100 * share:g} %" for share in CRITERIA[:2]),
     "criterion": lambda: f"{CRITERIA[2] * STEP / DEG:g}",
+    "two_percent": lambda: f"{100 * CRITERIA[0]:g}",
     "five_percent": lambda: f"{100 * CRITERIA[1]:g}",
     "end": lambda: f"{END:g}",
     "runs": lambda: f"{RUNS}",
@@ -183,4 +191,5 @@ WORDS = {
     "shallow_torque": lambda: f"{over_grooves()[1][-1]:.2f}",
     "most_angle": lambda: f"{max(over_grooves()[2]):.0f}",
     "shallow_angle": lambda: f"{over_grooves()[2][-1]:.0f}",
+    "scale_factor": lambda: f"{min(_scale_factors()):.1f} to {max(_scale_factors()):.1f}",
 }

@@ -9,6 +9,7 @@ from book.companion.claims import printed
 from book.companion.drawn import drawn
 from softgrip.control.designs import NOISE, STEP
 from softgrip.control.loop import SPEED_LIMIT
+from softgrip.control.pid import PERIOD
 from softgrip.logs.pushes import HIGH, LOW, compare
 from softgrip.logs.reader import kept_log, read_log
 from softgrip.logs.staircase import judge_staircase
@@ -43,6 +44,8 @@ def _on_rig(design: str) -> StepResponse:
 WORDS = {
     "step": lambda: f"{STEP / DEG:.0f}",
     "speed_limit": lambda: f"{SPEED_LIMIT / REV:g}",
+    "period": lambda: f"{1e3 * PERIOD:g}",
+    "bits": lambda: f"{design_1().sensors.bits}",
     # Figures 4.3 and 4.4: mL, MPa
     "gas": lambda: f"{GAS_VOLUME / ML:.0f}",
     "larger_area": lambda: f"{_rate('larger area'):.1f}",

@@ -13,8 +13,7 @@ from book.chapter_5.step_protocols import SMALL, stated_stiffness
 from book.chapter_5.step_sweep import ANGLES as STEPS
 from book.chapter_5.step_sweep import KEPT
 from book.companion.claims import claim_of, printed
-from book.companion.printed import Spread
-from book.companion.verdict import judge
+from book.companion.verdict import recomputed
 from softgrip.actuator.cantilever import angle_limit
 from softgrip.dynamics.consistency import POWER
 from softgrip.dynamics.identify import CONFIDENCE
@@ -22,7 +21,7 @@ from softgrip.materials.facts import facts
 from softgrip.materials.fitting import comes_out, grid
 from softgrip.materials.leave_out import RIVALS, leave_k_out
 from softgrip.materials.table import table_5_1
-from softgrip.reads import remembered
+from softgrip.simulator.calibration import design_1
 from softgrip.simulator.parameters import SensorParameters
 from softgrip.units import DEG, MPa
 
@@ -41,14 +40,6 @@ def _span(values: Iterable[float], form: str = ".0f") -> str:
 def _pair(values: Iterable[float], form: str = ".0f") -> str:
     first, second = values
     return f"{first:{form}} and {second:{form}}"
-
-
-@remembered
-def _recomputed(claim: str) -> Spread:
-    """Return what comes of a claim, with what the rounding of its inputs leaves open."""
-    spread = judge(claim_of(5, claim)).spread
-    assert spread
-    return spread
 
 
 def _missed() -> list[float]:
@@ -111,16 +102,17 @@ WORDS = {
     "meets_late": lambda: _span(meets(name)[0] for name in table_5_1() if name not in EARLY),
     "meets_early": lambda: _span(chain.from_iterable(map(meets, EARLY)), ".1f"),
     # The formula: n, and errors in %.
-    "estimated_20": lambda: f"{_recomputed('table-5.2-estimated-dragon-skin-20').value:.3f}",
-    "estimated_fx": lambda: f"{_recomputed('table-5.2-estimated-dragon-skin-fx-pro').value:.3f}",
-    "least_fx": lambda: f"{_recomputed('table-5.2-estimated-dragon-skin-fx-pro').low:.3f}",
-    "error": lambda: f"{_recomputed('5.5-error-below-ten-percent').value:.1f}",
+    "estimated_20": lambda: f"{recomputed(5, 'table-5.2-estimated-dragon-skin-20').value:.3f}",
+    "estimated_fx": lambda: f"{recomputed(5, 'table-5.2-estimated-dragon-skin-fx-pro').value:.3f}",
+    "least_fx": lambda: f"{recomputed(5, 'table-5.2-estimated-dragon-skin-fx-pro').low:.3f}",
+    "error": lambda: f"{recomputed(5, '5.5-error-below-ten-percent').value:.1f}",
     "left_out_rms": lambda: f"{leave_k_out(1).rms_error:.2f}",
     "mean_rms": lambda: f"{leave_k_out(1, model=RIVALS['mean of the others']()).rms_error:.2f}",
     "missed_more": lambda: f"{sum(e > printed('5.5-error-below-ten-percent') for e in _errors())}",
     "worst": lambda: f"{max(_errors()):.0f}",
     # The equations: factors, and deg for parts in %.
     "power": lambda: f"{POWER}",
+    "rig_power": lambda: f"{design_1().finger.fractional_power:g}",
     "limits": lambda: _pair(100 * part for part in dynamics.LIMITS),
     "limit": lambda: f"{100 * dynamics.LIMITS[0]:.0f}",
     "other_limit": lambda: f"{100 * dynamics.LIMITS[1]:.0f}",
@@ -147,15 +139,16 @@ WORDS = {
     "linear_answers": lambda: f"{ANGLES[0] * (ANGLES[1] / ANGLES[0]) ** POWER:.0f}",
     "noise": lambda: f"{SensorParameters().angle_noise / DEG:g}",
     "mean_noise": lambda: f"{SensorParameters().angle_noise / DEG / RUNS**0.5:.2f}",
-    "fit_allowed": lambda: f"{_recomputed('5.3-average-fit-allowed').value:.1f}",
-    "percent": lambda: f"{_recomputed('5.4-percent-design-1--90-deg--linear').value:.1f}",
+    "fit_allowed": lambda: f"{recomputed(5, '5.3-average-fit-allowed').value:.1f}",
+    "percent": lambda: f"{recomputed(5, '5.4-percent-design-1--90-deg--linear').value:.1f}",
     # How far a straight line goes: deg.
     "bound": lambda: f"{BOUND:g}",
     "stated_limits": lambda: "{}, {} and {}".format(*dynamics.STATED_LIMITS),
     "ranges": lambda: _pair(map(linear_limit, FINGERS)),
+    "away": lambda: f"{STEPS[1] - STEPS[0]}",
     "again": lambda: f"{_again()}",
     # Figures that the text refers to by another's number.
-    "correlations_in": lambda: f"{_recomputed('5.2-correlations-shown-in').value:g}",
-    "bending_in": lambda: f"{_recomputed('5.3-bending-shown-in').value:g}",
-    "setup_in": lambda: f"{_recomputed('5.4-setup-shown-in').value:g}",
+    "correlations_in": lambda: f"{recomputed(5, '5.2-correlations-shown-in').value:g}",
+    "bending_in": lambda: f"{recomputed(5, '5.3-bending-shown-in').value:g}",
+    "setup_in": lambda: f"{recomputed(5, '5.4-setup-shown-in').value:g}",
 }

@@ -238,9 +238,12 @@ def angle_at_rest(side: str, kind: str = "open") -> float:
 
 
 @simulated
-def settled_on_rig(controller: str, criterion: str = "10 %") -> float:
-    """Return the settling time of both fingers on the simulated gripper, median of 50 runs, s."""
-    return float(np.median(comparison.judged(controller).settling[criterion]))
+def settled_on_rig(controller: str, criterion: str = "10 %", rig: str = "as it is") -> float:
+    """Return the settling time of both fingers on the simulated gripper, median of 50 runs, s.
+
+    ``rig`` is a key of `comparison.RIGS`.
+    """
+    return float(np.median(comparison.judged(controller, rig).settling[criterion]))
 
 
 @simulated

@@ -7,15 +7,17 @@ from book.chapter_6 import figures_model as model
 from book.chapter_6 import figures_study as study
 from book.chapter_6.controllers import WANTED
 from book.chapter_6.figures_rig import ENDS
-from book.chapter_6.filters import CROSSOVER, author_plant
+from book.chapter_6.filters import CROSSOVER, DAMPING_RATIO, NATURAL_FREQUENCY, author_plant
 from book.chapter_6.grasps import STIFFNESS
+from book.companion.claims import claim_of, printed
+from book.companion.verdict import recomputed
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.gripper.grasp import ElasticDisc
 from softgrip.gripper.gripper_batch import Trial
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.gripper.optimal_feedforward import FeedforwardProgram
 from softgrip.gripper.plant import PRINTED, FingerDynamics
-from softgrip.gripper.printed_loop import FINE, equal_targets
+from softgrip.gripper.printed_loop import FILTERS, FINE, equal_targets
 from softgrip.gripper.uncertainty import DAMPING_BOUND, STIFFNESS_BOUND
 from softgrip.units import DEG, MM, REV
 
@@ -26,6 +28,12 @@ def _plant(finger: FingerDynamics) -> str:
 
 def _limit(which: int) -> float:
     return list(study.LIMITS.values())[which]
+
+
+def _weights() -> dict[float, float]:
+    """Return the largest weight by the motor speeds, rev/s, at which every run has a model."""
+    found = {one: results.largest_weight(one * REV) for one in speed.SPEEDS}
+    return {one: weight for one, weight in found.items() if weight is not None}
 
 
 WORDS = {
@@ -45,6 +53,8 @@ WORDS = {
     "slow_excited": lambda: f"{results.band('low-speed')[1]:.0f}",
     "speed_runs": lambda: f"{speed.RUNS}",
     "spread_at_rest": lambda: f"{numbers.spread_at_rest(5.0):.1f}",
+    "low_speed": lambda: f"{min(_weights()):g}",
+    "weight_grows": lambda: f"{100 * (_weights()[min(_weights())] / _weights()[5.0] - 1):.0f}",
     # Figure 6.6.
     "noise": lambda: f"{model.NOISE / DEG:g}",
     "push": lambda: f"{model.PUSH:g}",
@@ -71,7 +81,9 @@ WORDS = {
     "judged_runs": lambda: f"{comparison.RUNS}",
     "judged_band": lambda: f"{comparison.CRITERIA['2 deg'][0] / DEG:g}",
     "ends": lambda: "{} to {}".format(*ENDS),
+    "unlimited_settled": lambda: f"{numbers.settled_on_rig('2/s', rig='no motor limit'):.1f}",
     # Figures 6.A to 6.C, Tables 6.B and 6.D.
+    "asked": lambda: f"{180 * printed('6.4-target-of-the-simulation'):.0f}",
     "equal_low": lambda: f"{100 * shown.outside('equal angles', 0):.0f}",
     "half": lambda: f"{shown.half_outside():.0f}",
     "proj_high": lambda: f"{100 * shown.outside('proj(Y_d)', 1):.0f}",
@@ -79,6 +91,13 @@ WORDS = {
     "apart_slow": lambda: f"{shown.farthest_apart('2/s') / DEG:.1f}",
     "crossover_fast": lambda: f"{CROSSOVER['4.8/s']:g}",
     "crossover_slow": lambda: f"{CROSSOVER['2/s']:g}",
+    "equal_fast": lambda: f"{recomputed(6, '6.4-target-loop-4-8-s').value:.2f}",
+    "equal_slow": lambda: f"{recomputed(6, '6.4-target-loop-2-s').value:.2f}",
+    "coefficients": lambda: f"{sum(len(top) + len(low) - 2 for top, low in FILTERS.values())}",
+    "inside_frequency": lambda: f"{NATURAL_FREQUENCY:g}",
+    "inside_damping": lambda: f"{DAMPING_RATIO:g}",
+    "inverse_gap": lambda: f"{recomputed(6, '6.4-inverse-is-theorem-2').value:.0f}",
+    "inverse_gap_at": lambda: f"{claim_of(6, '6.4-inverse-is-theorem-2').arguments['frequency']:g}",
     "mean_plant": lambda: _plant(PRINTED.mean),
     "author_plant": lambda: _plant(author_plant()),
     "delays": lambda: "{}, {} or {}".format(*model.DELAYS),

@@ -5,8 +5,7 @@ import numpy as np
 from book.chapter_6 import figures_model, figures_study, filters, finger_count, grasps, results
 from book.chapter_6.controllers import WANTED
 from book.chapter_6.figures_rig import MODELLED, model_deviation
-from book.companion.claims import claim_of
-from book.companion.verdict import judge
+from book.companion.verdict import recomputed
 from softgrip.arrays import Floats
 from softgrip.control.step_metrics import overshoot, settling_time
 from softgrip.gripper.plant import PRINTED
@@ -84,8 +83,7 @@ def unstable_from(method: str, delay: int) -> float:
 
 def ripple() -> float:
     """Return the larger RMS error of Figure 6.6 (b), deg: what the ledger computes of the noise."""
-    spread = judge(claim_of(6, "6.4-simulated-noise-error")).spread
-    return spread.value if spread else np.nan
+    return recomputed(6, "6.4-simulated-noise-error").value
 
 
 def settles_about(end: int) -> tuple[float, float]:

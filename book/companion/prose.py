@@ -10,7 +10,11 @@ from functools import cache
 from importlib import import_module
 
 from book.companion.claims import printed_text
+from book.companion.verdict import CLOSE
 from softgrip.errors import UnknownNameError
+
+WORDS = {"close": lambda: f"{100 * CLOSE:g}"}
+"""Of the pages on the ledger itself, whose room this is."""
 
 
 def words(page: int | str) -> Mapping[str, Callable[[], str]]:

@@ -36,6 +36,7 @@ from book.companion.claims import (
 )
 from book.companion.printed import Printed, Spread, carried
 from softgrip.errors import DataFileError
+from softgrip.reads import remembered
 
 CLOSE = 0.05
 """Largest relative difference of a model that is still called close."""
@@ -288,6 +289,14 @@ def ledger(chapter: int | None = None, where: Collection[str] = ()) -> list[Entr
 def outcome_of(chapter: int, claim: str, key: object = "") -> Outcome:
     """Judge one claim, by id and key as for `claim_of`."""
     return judge(claim_of(chapter, claim, key)).outcome
+
+
+@remembered
+def recomputed(chapter: int, claim: str) -> Spread:
+    """Return what comes of a claim that is recomputed, with what rounding leaves open."""
+    spread = judge(claim_of(chapter, claim)).spread
+    assert spread, f"nothing recomputes {claim}"
+    return spread
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from book.chapter_4.controllers import own_step
 from book.companion.drawn import drawn
 from softgrip.logs.reader import kept_log
 from softgrip.logs.steps import judge_step_log
@@ -11,10 +12,12 @@ from softgrip.pump.flow import PARAMETER_SETS
 
 def test_the_full_model_is_better_by_the_wide_criteria_alone():
     alone, full = (judge_step_log(kept_log(f"pid-{x}")) for x in ("actuator", "full"))
+    own_alone, own_full = map(own_step, ("actuator", "full"))
     better = {"5_percent": True, "5_deg": True, "2_percent": False, "2_deg": False}
     for criterion, is_better in better.items():
         name = f"settled_{criterion}"
         assert (getattr(full, name) < getattr(alone, name)) == is_better
+        assert getattr(own_alone, name) < getattr(own_full, name)
 
 
 def test_rates_of_figure_4_3_are_a_quarter_and_twice():

@@ -1,4 +1,4 @@
-"""No number in a caption or in what a page says it found is typed: it is computed, or a claim's."""
+"""No number in a caption or in a page's prose is typed: it is computed, or it is a claim's."""
 
 import re
 import tomllib
@@ -11,35 +11,53 @@ from softgrip.errors import UnknownNameError
 
 LIST = r"(?:(?:,| and| to| or|-) ?\(?[\d.]+\w?\)?)*"
 NOT_NUMBERS = re.compile(
-    # Computed, code, symbols, links; then what has a number for a name.
-    r"\{\{ \S+ \}\}|\{[\w:]+\}`[^`]*`|`[^`]*`|\$[^$]*\$|\]\([^)]*\)"
-    rf"|(?:Sections?|Chapters?|Figures?|Tables?|Eqs?\.) \(?[\d.]+\w?\)?{LIST}"
-    r"|Design \d|SPA \d|Ecoflex™? \d\d-\d\d|Dragon Skin \d\d|Mold Star \d\d\w*|SORTA-Clear \d\d"
-    r"|NEMA \d\d|[Rr]ow \d\b"
-    r"|\b[A-Za-z]+_\d\b|\b[EHRL]_?\d\b"
+    # Computed, code, symbols, links, HTML; then what has a number for a name: places of the
+    # dissertation, materials, parts, versions, dates, preprints.
+    r"\{\{ \S+ \}\}|\{[\w:]+\}`[^`]*`|`[^`]*`|\$[^$]*\$|\]\([^)]*\)|<[^>]*>"
+    r"|(?:Sections?|Chapters?|Figures?|Tables?|Eqs?\.|Theorem|Assumption|Remark)"
+    rf" \(?[\d.]+\w?\)?{LIST}"
+    rf"|(?:Designs?|SPA|Variances?|[Rr]ows?) \d{LIST}"
+    r"|Ecoflex™? \d\d-\d\d|Dragon Skin \d\d|Mold Star \d\d\w*|SORTA-Clear \d\d"
+    r"|(?:NEMA|MEGA|Mega|Python|version) [\d.]+|\b[A-Za-z]+_?\d\w*\b"
+    r"|\b(?:In|\d\d? [A-Z][a-z]+) (?:19|20)\d\d\b|\b\d{4}\.\d{5}\b"
+)
+UNITS = "degrees?|deg|millimet(?:re|er)s?|seconds?|minutes?|percent|times (?:as|too|that|the)"
+IN_WORDS = re.compile(
+    r"\b(?:two|three|four|five|six|seven|eight|nine|ten|eleven|twelve|\w+teen|twenty|hundred)"
+    rf"(?: and a half)? (?:{UNITS})\b"
 )
 
 
 def typed(text: str) -> list[str]:
-    """Return the numbers of a text that stand there as such."""
-    return re.findall(r"\d[\d.,]*", NOT_NUMBERS.sub("", " ".join(text.split())))
+    """Return the numbers of a text that stand there as such: figures, and words before a unit."""
+    rest = NOT_NUMBERS.sub("", " ".join(text.split()))
+    return re.findall(r"\d[\d.,]*", rest) + IN_WORDS.findall(rest)
 
 
-PAGES = {**{chapter: f"chapter-{chapter}.md" for chapter in chapters()}, "author": "author.md"}
-
-
-def found(page: str) -> str:
-    """Return what a page says that it found."""
-    text = (BOOK / PAGES[page]).read_text(encoding="utf-8")
-    match = re.search(r"\*\*What was found\.?\*\*(.*?)\n(```\{code-cell|## )", text, re.DOTALL)
-    assert match, page
-    return match[1]
+NO_PROSE = re.compile(
+    r"\A---\n.*?\n---\n|^ *(`{3,})[^`\n]*\n.*?^ *\1$|^\$\$$.*?^\$\$[^\n]*$|^ *\d\. ",
+    re.DOTALL | re.MULTILINE,
+)
+"""Front matter, fenced blocks such as cells, displayed equations, numbers of a list's points."""
+PAGES = {page.stem: page.read_text("utf-8") for page in sorted(BOOK.glob("*.md"))}
+ROOMS = {
+    **{chapter: [f"chapter-{chapter}"] for chapter in chapters()},
+    "author": ["author"],
+    "live": ["commissioning", "protocol", "rig"],
+    "companion": ["index", "ledger"],
+}
+"""Pages by the room that has their computed numbers."""
 
 
 def test_a_typed_number_is_seen():
     assert typed("within 5 % by Eq. (3.10) of Section 2.3, Design 1") == ["5"]
     assert typed("{{ share }} % of {claim}`5.4-rms` and {glue:text}`x`, $2\\pi$, `a[1]`") == []
     assert typed("see [Table 3.2](page.md#t2) and Figures 2.1, 2.3 and 2.4") == []
+    assert typed("On 14 September 2020, Python 3.11 and an INA126: 16 MHz") == ["16"]
+    assert typed("three to eighteen times as steep, ten\ndegrees on") == [
+        "eighteen times as",
+        "ten degrees",
+    ]
 
 
 @pytest.mark.parametrize("chapter", chapters())
@@ -50,17 +68,24 @@ def test_no_number_in_a_caption_is_typed(chapter):
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_no_number_in_what_was_found_is_typed(page):
-    assert typed(found(page)) == []
+def test_no_number_in_the_prose_of_a_page_is_typed(page):
+    paragraphs = NO_PROSE.sub("\n", PAGES[page]).split("\n\n")
+    assert {text: numbers for text in paragraphs if (numbers := typed(text))} == {}
 
 
-@pytest.mark.parametrize("page", PAGES)
-def test_every_computed_number_stands_somewhere(page):
-    captions = BOOK / f"chapter_{page}/captions.toml"
+@pytest.mark.parametrize("room", ROOMS)
+def test_every_computed_number_stands_somewhere(room):
+    captions = BOOK / f"chapter_{room}/captions.toml"
     told = captions.read_text("utf-8") if captions.exists() else ""
-    asked = re.findall(r"\{\{ (\w+) \}\}", told)
-    asked += re.findall(r"\{glue:text\}`(\w+)`", (BOOK / PAGES[page]).read_text("utf-8"))
-    assert set(asked) == set(words(page))
+    asked = [set(re.findall(r"\{glue:text\}`(\w+)`", PAGES[page])) for page in ROOMS[room]]
+    assert set(re.findall(r"\{\{ (\w+) \}\}", told)).union(*asked) == set(words(room))
+
+
+def test_a_page_with_computed_numbers_is_told_them():
+    rooms = {page: room for room, pages in ROOMS.items() for page in pages}
+    for page, text in PAGES.items():
+        told = re.findall(r"^tell\(\"?(\w+)\"?\)$", text, re.MULTILINE)
+        assert told == ([rooms[page]] if "{glue:text}" in text else []), page
 
 
 def test_a_number_that_is_not_there_is_named():
