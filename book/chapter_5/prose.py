@@ -3,9 +3,18 @@
 from collections.abc import Iterable
 from itertools import chain
 
+import numpy as np
+
 from book.chapter_5 import figures_dynamics as dynamics
 from book.chapter_5.figures_materials import BEST, meets
 from book.chapter_5.logs import RUNS
+from book.chapter_5.matched_model import (
+    Setting,
+    largest_share_at_rest,
+    linear_errors,
+    resting_angle,
+    settings,
+)
 from book.chapter_5.numbers import BOUND, fitted_power, hundred_percent_modulus, linear_limit
 from book.chapter_5.step_models import ANGLES, FINGERS, Kind, identified_at, kept_test
 from book.chapter_5.step_models import step_test_error as error
@@ -87,6 +96,29 @@ def _stiffer(kind: Kind) -> list[float]:
     return [stated_stiffness(x, kind) / identified_at(x, kind).stiffness.value for x in FINGERS]
 
 
+def _shared() -> tuple[Setting, ...]:
+    """Return what both fingers may share, with the damping ratio of Section 3.4 and its ends."""
+    middle, spread = (float(printed(f"3.4-damping-{x}")) for x in ("ratio", "spread"))
+    return settings(ANGLES, (middle - spread, middle, middle + spread))
+
+
+def _grows_in() -> int:
+    """Count the settings in which the larger n of Table 5.2 has the larger error, by either row."""
+    larger, smaller = FINGERS["Design 1"], FINGERS["Design 2"]
+    pairs = ((larger.estimated, smaller.estimated), (larger.true, smaller.true))
+    found = [linear_errors(n, _shared()) > linear_errors(m, _shared()) for n, m in pairs]
+    return int(np.logical_and(*found).sum())
+
+
+def _powers() -> list[tuple[str, float]]:
+    return [(x, n) for x, finger in FINGERS.items() for n in (finger.estimated, finger.true)]
+
+
+def _share_at_rest(design: str, power: float) -> float:
+    error = printed(f"5.4-rms-{design.lower().replace(' ', '-')}--90-deg--linear")
+    return largest_share_at_rest(error, *ANGLES, power)
+
+
 WORDS = {
     # The ten exponents: ways to fit, strains, %.
     "ways": lambda: f"{len(grid())}",
@@ -137,6 +169,10 @@ WORDS = {
     "linear_misses": lambda: _pair(error(x, "linear", ANGLES[1]) for x in FINGERS),
     "more_pressure": lambda: f"{(ANGLES[1] / ANGLES[0]) ** POWER:.1f}",
     "linear_answers": lambda: f"{ANGLES[0] * (ANGLES[1] / ANGLES[0]) ** POWER:.0f}",
+    "rests": lambda: _span(resting_angle(*ANGLES, n) for _, n in _powers()),
+    "share_at_rest": lambda: f"{100 * max(_share_at_rest(*one) for one in _powers()):.0f}",
+    "settings": lambda: f"{len(_shared())}",
+    "grows_in": lambda: f"{_grows_in()}",
     "noise": lambda: f"{SensorParameters().angle_noise / DEG:g}",
     "mean_noise": lambda: f"{SensorParameters().angle_noise / DEG / RUNS**0.5:.2f}",
     "fit_allowed": lambda: f"{recomputed(5, '5.3-average-fit-allowed').value:.1f}",

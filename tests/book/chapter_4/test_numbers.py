@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import signal
 
+from book.author import scripts
 from book.chapter_4.numbers import (
     fastest,
     gain_ratio,
@@ -14,7 +15,7 @@ from book.chapter_4.numbers import (
     settling_by_author,
     settling_on_model,
 )
-from book.companion.claims import printed
+from book.companion.claims import claim_of, printed
 from softgrip.control.ziegler_nichols import ReactionCurve, ziegler_nichols
 from softgrip.pump.flow import TABLE_4_1
 from softgrip.pump.gas import ATMOSPHERE
@@ -69,6 +70,22 @@ def test_settling_of_the_authors_loop_is_that_of_its_transfer_function():
         assert settling_by_author((kp, ki, kd), w, zeta, gain, band) == pytest.approx(
             last, abs=0.02
         )
+
+
+def test_full_speed_from_the_start_is_no_sooner_than_the_note_says():
+    """The finger's step response is never negative, so that no command within the limit is."""
+    inputs, note = scripts.inputs("control"), claim_of(4, "4.4-settling-full").note
+    w, zeta = inputs["natural_frequency"], inputs["damping_ratio"]
+    time = np.linspace(0, 5, 50001)
+    pushed = inputs["gain"] * printed("4.2-speed-limit")
+    _, rate = signal.step(([pushed], [1, 2 * zeta * w, w**2]), T=time)
+    assert (rate >= 0).all()
+    assert f"by {np.degrees(pushed / w**2):.1f} deg/s" in note
+    angle = np.degrees(np.cumsum(rate) * time[1])
+    for target, band in ((90, 0.1), (60, 0.02)):
+        within = time[np.argmax(angle >= (1 - band) * target)]
+        assert f"{100 * band:g} % after {within:.2f} s" in note
+    assert time[np.argmax(angle >= 0.9 * 90)] > printed("4.4-settling-full")
 
 
 def test_less_gain_settles_later():
