@@ -6,6 +6,7 @@ from scipy.optimize import minimize_scalar
 
 from softgrip.arrays import Floats
 from softgrip.gripper.fixed_order_shaping import (
+    ASYMPTOTE,
     SHARE,
     ShapedLoop,
     loop_of_filter,
@@ -78,15 +79,17 @@ def deviations(target: str, loop: ShapedLoop) -> Floats:
     return np.asarray(100 * (found / print_ - 1))
 
 
-def crossover_of_peaks(numerator: ArrayLike, denominator: ArrayLike) -> float:
+def crossover_of_peaks(
+    numerator: ArrayLike, denominator: ArrayLike, asymptote: float = ASYMPTOTE
+) -> float:
     """Return the c for which the peaks of a filter's mixed sensitivity are equal, rad/s.
 
     Above it one of them is larger, below it another: there the largest is least. An optimum has
     them equal, so it is the target loop that a filter was designed for. No plant and no design are
-    in it.
+    in it, but the rule's weights are, with their asymptote.
     """
     top, low = np.asarray(numerator, np.float64), np.asarray(denominator, np.float64)
-    W1, W3 = weights(1j * FREQUENCY)
+    W1, W3 = weights(1j * FREQUENCY, asymptote)
 
     def peak(crossover: float) -> float:
         s = 1j * FREQUENCY * crossover

@@ -87,9 +87,16 @@ def low_pass(numerator: Sequence[float], denominator: Sequence[float]) -> Coeffi
     return tuple(numerator), (1.0, *denominator, numerator[-1])
 
 
-def target_loop(numerator: Sequence[float], denominator: Sequence[float]) -> float:
-    """Return c of the target loop c/s that a filter, see `low_pass`, is the optimum of, rad/s."""
-    return filters.crossover_of_peaks(*low_pass(numerator, denominator))
+def target_loop(
+    numerator: Sequence[float], denominator: Sequence[float], asymptote: float
+) -> float:
+    """Return c of the target loop c/s that a filter is the optimum of, rad/s.
+
+    Args:
+        numerator, denominator: As of `low_pass`.
+        asymptote: Of the weights that it is the optimum for; see `fixed_order_shaping.weights`.
+    """
+    return filters.crossover_of_peaks(*low_pass(numerator, denominator), asymptote)
 
 
 def stiffness_inside(numerator: Sequence[float], denominator: Sequence[float]) -> float:

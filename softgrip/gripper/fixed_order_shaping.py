@@ -128,15 +128,15 @@ def shaped_plant(plant: control.LTI, crossover: float) -> control.TransferFuncti
     return control.tf(np.polymul(top, W.num[0][0]), np.polymul(low, W.den[0][0]))
 
 
-def weights(s: np.ndarray) -> tuple[Floats, Floats]:
-    """Return ``|W1|`` and ``|W3|`` at ``s`` in units of the crossover.
+def weights(s: np.ndarray, asymptote: float = ASYMPTOTE) -> tuple[Floats, Floats]:
+    """Return ``|W1|`` and ``|W3|`` at ``s`` in units of the crossover, with their asymptote.
 
     >>> [w.round(2).tolist() for w in weights(np.array([1e-9j, 1j, 1e9j]))]
     [[1000.0, 1.12, 0.5], [0.5, 1.12, 1000.0]]
     """
     return (
-        np.asarray(np.abs((ASYMPTOTE * s + 1) / (s + 1 / LEVEL))),
-        np.asarray(np.abs((s + ASYMPTOTE) / (s / LEVEL + 1))),
+        np.asarray(np.abs((asymptote * s + 1) / (s + 1 / LEVEL))),
+        np.asarray(np.abs((s + asymptote) / (s / LEVEL + 1))),
     )
 
 

@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
+from book.chapter_6.filters import crossover_of_peaks
 from book.chapter_6.numbers import FINE
+from book.companion.claims import claim_of
 from softgrip.control.step_metrics import settling_time
-from softgrip.gripper.printed_loop import equal_targets, run_printed
+from softgrip.gripper.printed_loop import FILTERS, equal_targets, run_printed
 
 
 def test_second_finger_settles_alone_when_the_note_says():
@@ -15,3 +17,11 @@ def test_second_finger_settles_alone_when_the_note_says():
     first, second = settling_time(found.time, found.angles, final=final, band=0.05)
     assert second == pytest.approx(0.56, abs=0.005)
     assert first > second
+
+
+def test_another_weight_makes_the_printed_target_loop_the_one_of_the_filter():
+    """So the rule, which the text does not name, decides which target loop a filter has."""
+    fast, slow = (crossover_of_peaks(*FILTERS[name], asymptote=0.2) for name in ("4.8/s", "2/s"))
+    assert f"{fast:.1f}/s, and those of the other for {slow:.2f}/s" in (
+        claim_of(6, "6.4-target-loop-4-8-s").note
+    )

@@ -87,7 +87,7 @@ CASES: list[tuple[str, Callable, str, str, str]] = [
     ("Eq. (6.15): a spring that pushes away",
      plant.state_space, "-finger.stiffness", "finger.stiffness", "6.4-simulated-noise-error"),
     ("mixed sensitivity: a weight of the sensitivity without its half",
-     fixed_order_shaping.weights, "ASYMPTOTE * s + 1", "s + 1", "6.4-target-loop-2-s"),
+     fixed_order_shaping.weights, "asymptote * s + 1", "s + 1", "6.4-target-loop-2-s"),
     ("Eq. (2.9): one finger only",
      lifting.lift_force, "2 * friction", "friction", "2.4-chosen-lift-above-weight-tofu"),
 ]  # fmt: skip
