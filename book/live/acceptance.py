@@ -1,4 +1,4 @@
-"""The bands of acceptance as a table, and the calibration of a sensor as a picture."""
+"""The bands of acceptance as a table, a calibration as a table and as a picture."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -9,9 +9,10 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from book.companion.style import GREY, LUDWICK, MEASURED, WIDTH, style
-from softgrip.board.calibration import SensorLine
+from softgrip.board.calibration import BoardCalibration, SensorLine, nominal
 from softgrip.logs.reader import read_log
 from softgrip.rig.acceptance import Experiment, judge
+from softgrip.units import DEG
 
 
 def bands_table(logs: Mapping[Experiment, Path | str]) -> pd.DataFrame:
@@ -35,6 +36,26 @@ def bands_table(logs: Mapping[Experiment, Path | str]) -> pd.DataFrame:
             for band in judge(path, experiment)
         ]
     return pd.DataFrame(rows)
+
+
+def lines_table(measured: BoardCalibration) -> pd.DataFrame:
+    """Tabulate what a count is worth by measured lines and by those of the data sheets."""
+    sheet = nominal(len(measured.angles))
+    lines = [("pressure", "Pa", 1.0, measured.pressure, sheet.pressure)]
+    lines += [
+        (f"angle {k}", "deg", DEG, *pair)
+        for k, pair in enumerate(zip(measured.angles, sheet.angles, strict=True), 1)
+    ]
+    return pd.DataFrame(
+        {
+            "sensor": sensor,
+            "unit": unit,
+            "a count": f"{found.gain / scale:.4g}",
+            "by the data sheet": f"{told.gain / scale:.4g}",
+            "residual": f"{found.residual / scale:.2g}",
+        }
+        for sensor, unit, scale, found, told in lines
+    )
 
 
 def draw_calibration(
