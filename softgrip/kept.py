@@ -26,10 +26,15 @@ def write_data(
     notes: str = "",
     provenance: Provenance = Provenance.SIMULATED,
 ) -> Path:
-    """Write a file with its header (notes are lines of their own), and return its path."""
+    """Write a file with its header (notes are lines of their own), and return its path.
+
+    One that says the same already is left alone: who has read it need not look again.
+    """
     about = (f"provenance: {provenance}", f"source: {source}", *notes.splitlines())
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text("".join(f"# {line}\n" for line in about) + text, encoding="utf-8", newline="\n")
+    content = ("".join(f"# {line}\n" for line in about) + text).encode()
+    if not path.is_file() or path.read_bytes() != content:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
     return path
 
 
