@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from book.live.calibrate import FITTED, Readings, fit_calibration, take_readings
 from softgrip.board.calibration import nominal
 from softgrip.board.errors import CommandRefusedError
 from softgrip.errors import InvalidInputError
-from softgrip.rig.calibrate import FITTED, Readings, fit_calibration, take_readings
 from softgrip.rig.connect import connect
 from softgrip.rig.simulated import simulated_gripper
 from softgrip.simulator.parameters import SensorParameters
