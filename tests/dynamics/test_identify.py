@@ -81,18 +81,17 @@ def test_motion_is_told_up_to_half_the_sampling_rate():
         identify(t, u, response(SecondOrder(3.2, 0.3), t, u))
 
 
-@pytest.mark.parametrize("turn", [0.11, 0.15, 0.2, 0.3, 0.5, 0.9, 1.5])
-@pytest.mark.parametrize("damping", [0.3, 0.7, 1.5])
+@pytest.mark.parametrize(("turn", "damping"), [(0.15, 0.3), (0.2, 1.5), (0.5, 0.3), (1.5, 0.7)])
 def test_a_record_of_less_than_a_radian_is_right_or_refused(turn, damping):
     """Without noise: the search used to end at half the frequency, with an interval of a tenth."""
-    t = np.arange(0, 6, 0.025)
-    y = response(SecondOrder(turn / 6, damping, 2.4e-5), t, 0 * t + 1e5, initial_pressure=0.0)
+    t = np.arange(0, 6, 0.1)
+    y = response(SecondOrder(turn / t[-1], damping, 2.4e-5), t, 0 * t + 1e5, initial_pressure=0.0)
     if turn < 1:
         with pytest.raises(InvalidInputError, match="determines the parameters"):
             identify(t, 0 * t + 1e5, y, initial_input=0.0)
     else:
         found = identify(t, 0 * t + 1e5, y, initial_input=0.0)
-        assert found.natural_frequency.value == pytest.approx(turn / 6, rel=1e-3)
+        assert found.natural_frequency.value == pytest.approx(turn / t[-1], rel=1e-3)
 
 
 def test_units_scale_the_gain_only():
