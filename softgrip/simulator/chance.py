@@ -1,5 +1,7 @@
 """All chance in a simulated rig: a stream of numbers for each run, whatever the batch."""
 
+from dataclasses import fields
+
 import numpy as np
 
 from softgrip.arrays import Floats
@@ -17,8 +19,12 @@ def streams(seed: int, run: int) -> tuple[np.random.Generator, np.random.Generat
     They depend on the seed and on the number of the run alone, so that a run is the same in any
     batch. The kind of generator is named, since NumPy may change its default one.
     """
-    own, noise = np.random.SeedSequence(seed, spawn_key=(run,)).spawn(2)
-    return np.random.Generator(np.random.PCG64(own)), np.random.Generator(np.random.PCG64(noise))
+    return _stream(seed, run, 0), _stream(seed, run, 1)
+
+
+def _stream(seed: int, run: int, which: int) -> np.random.Generator:
+    source = np.random.SeedSequence(seed, spawn_key=(run, which))
+    return np.random.Generator(np.random.PCG64(source))
 
 
 class Chance:
@@ -31,23 +37,32 @@ class Chance:
     """
 
     def __init__(self, spread: Spread, *, fingers: int, seed: int, first: int, runs: int) -> None:
-        pairs = [streams(seed, first + run) for run in range(runs)]
-        drawn = np.array([own.standard_normal(1 + 2 * fingers) for own, _ in pairs]).T
+        self.seed, self.first = seed, first
+        drawn = np.zeros((1 + 2 * fingers, runs))
+        if any(np.any(getattr(spread, field.name)) for field in fields(spread)):
+            for run in range(runs):
+                drawn[:, run] = _stream(seed, first + run, 0).standard_normal(len(drawn))
         # So the kept logs were made: the leak of a single finger is drawn last, of several first.
         leak = 2 if fingers == 1 else 0
         own = np.delete(drawn, leak, axis=0)
         self.stiffness: Floats = np.exp(spread.stiffness * own[0::2])
         self.damping: Floats = np.exp(spread.damping * own[1::2])
         self.leakage: Floats = np.exp(spread.leakage * drawn[leak])
-        self._noise = [noise for _, noise in pairs]
+        self._noise: list[np.random.Generator] = []
         self._block = np.empty((_BLOCK, 1 + fingers, runs))
         self._used = _BLOCK
+
+    def stream(self, run: int) -> np.random.Generator:
+        """Return the generator, at its start, of the noise of one of the runs, from 0."""
+        return _stream(self.seed, self.first + run, 1)
 
     def noise(self) -> Floats:
         """Return the noise of the next sample, standard normal, shape (1 + fingers, runs).
 
         Of the pressure, then of each angle.
         """
+        if not self._noise:
+            self._noise = [self.stream(run) for run in range(self._block.shape[-1])]
         if self._used == _BLOCK:
             # A block at a time: a call for each run and sample would cost more than the physics.
             for run, generator in enumerate(self._noise):

@@ -15,7 +15,7 @@ from tests.bench.fingers import ALLOWED, batch, choose_step, plain, responses
 
 SMALL = {
     "step_responses": {"runs": 4, "plain_runs": 2, "checked": 2, "repetitions": 1},
-    "rig": {"seconds": 0.25, "runs": 3, "repetitions": 1},
+    "rig": {"seconds": 0.25, "runs": 3, "experiment": 0.25, "repetitions": 1},
     "growth": {"runs": (2, 4, 8), "repetitions": 1},
     "controller": {"count": 50, "repetitions": 2},
     # Ours alone: PyElastica would have to be fetched.
