@@ -19,8 +19,8 @@ from softgrip.control import differentiator
 from softgrip.pump import gas
 from softgrip.simulator import lane_power, laws, motor, sensors
 
-LANES = 64
-"""Enough to hide what a loop costs to start; the rows of two fingers stay in the fastest cache."""
+LANES = 128
+"""Enough to hide what a loop costs to start: of half, or of more, a run takes longer."""
 
 _STATE, _ROW = ("f8", (3, LANES)), ("f8", (LANES,))
 STAGE, START, SUM = range(3)
@@ -35,12 +35,12 @@ RIG = _record(
     "amount sensed",
     "volume gauge atmosphere leakage ballooning rest area syringe_volume end backlash"
     " advance speed_limit acceleration_limit command speed screw plunger"
-    " pressure_lag angle_lag pressure_range angle_range pressure_noise angle_noise"
+    " pressure_pace angle_pace pressure_range angle_range pressure_noise angle_noise"
     " low_count high_count largest_count pressure",
 )
 FINGER = _record(
     "angle rate sensed",
-    "stiffness damping power inertia friction slow torque_per_pressure push growth torque",
+    "stiffness damping power mobility friction slow torque_per_pressure push growth torque",
 )
 BRANCH = _record("held", "memory relaxation")
 
@@ -98,10 +98,7 @@ class Plan(NamedTuple):
 
 
 class Law(NamedTuple):
-    """A `SampledLaw` with a last axis of lanes in each array; `scale` and `jerk` are 0 for none.
-
-    The reference's last axis may be 1: it is as long as the experiment.
-    """
+    """A `SampledLaw` with a last axis of lanes in each array; `scale` and `jerk` are 0 for none."""
 
     A: Any
     B_measured: Any
@@ -175,7 +172,7 @@ def _flow(rig, weight, part):
         gauge = rig.gauge[j]
         _go(rig.amount, j, -_leak(gauge, rig.leakage[j], rig.atmosphere[j]), weight, part)
         late = gauge - rig.sensed[STAGE, j]
-        _go(rig.sensed, j, late / rig.pressure_lag[j], weight, part)
+        _go(rig.sensed, j, late * rig.pressure_pace[j], weight, part)
 
 
 @_compiled
@@ -204,9 +201,9 @@ def _bend(rig, finger, weight, part):
         friction = _friction(rate, finger.friction[j], finger.slow[j])
         torque = finger.torque[j] - friction + finger.push[j]
         _go(finger.angle, j, rate, weight, part)
-        _go(finger.rate, j, torque / finger.inertia[j], weight, part)
+        _go(finger.rate, j, torque * finger.mobility[j], weight, part)
         late = angle - finger.sensed[STAGE, j]
-        _go(finger.sensed, j, late / rig.angle_lag[j], weight, part)
+        _go(finger.sensed, j, late * rig.angle_pace[j], weight, part)
 
 
 @_compiled
@@ -380,10 +377,10 @@ def _decide(law, x, ahead, inputs, target, free, sent):
 
 @_compiled
 def _held(values, k, row):
-    """Fill a row of lanes from values, shape (periods, lanes or 1), of which the last is held."""
+    """Fill a row from values, shape (periods, lanes), of which the last is held."""
     now = values[min(k, len(values) - 1)]
     for j in range(LANES):
-        row[j] = now[j if len(now) > 1 else 0]
+        row[j] = now[j]
 
 
 @_compiled
