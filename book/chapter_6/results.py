@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from book.chapter_6.controllers import gripper_controller, own_model, target_angles
+from book.chapter_6.controllers import gripper_controller
 from book.chapter_6.logs import PUSH_FROM, PUSH_UNTIL, RUNS, names_of, push_left
 from softgrip.arrays import Floats
 from softgrip.control.step_metrics import final_value
@@ -17,13 +17,13 @@ from softgrip.gripper.uncertainty import (
 )
 from softgrip.logs.fingers import GripperLogs, each_identified, read_runs
 from softgrip.provenance import data_file
-from softgrip.pump.finger import Finger, swept_volume
 from softgrip.reads import remembered
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
 from softgrip.simulator.gripper_calibration import step_identifies
 from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
 from softgrip.simulator.simulation import Simulation
+from softgrip.twin import statics
 from softgrip.units import DEG
 
 BAND_SHARE = 0.1
@@ -122,22 +122,6 @@ def recovery(within: float = 1 * DEG) -> Floats:
 def volume_for(count: int, angle: float) -> float:
     """Return what the plunger must sweep to bend so many fingers by an angle [rad], m^3.
 
-    The fingers are those of the simulated gripper, in turn; all are given the pressure that the
-    stiffest of them needs. By the exact gas law, `pump.finger.swept_volume`.
+    The fingers are those of the simulated gripper, in turn.
     """
-    gripper = printed_gripper(spread=False)
-    fingers = [gripper.fingers[k % 2] for k in range(count)]
-    pressure = max(f.stiffness * angle**f.fractional_power / f.torque_per_pressure for f in fingers)
-    at_rest = sum(f.rest_volume for f in fingers)
-    grown = sum(
-        f.torque_per_pressure * (f.torque_per_pressure * pressure / f.stiffness)
-        ** (1 / f.fractional_power) + f.ballooning * pressure
-        for f in fingers
-    )  # fmt: skip
-    asked = Finger(pressure, at_rest, at_rest + grown, gripper.gas.dead_volume, rise_time=1.0)
-    return swept_volume(asked, gripper.pump.syringe_volume, gripper.gas.atmosphere)
-
-
-def desired() -> Floats:
-    """Return what of 45 deg for both fingers the gripper's own model can reach, rad."""
-    return target_angles(own_model())
+    return statics.volume_for(printed_gripper(spread=False), count, angle)

@@ -1,0 +1,193 @@
+"""The tests of the pad in Chapter 2 on many pads: kinds of contact, weights, lift forces.
+
+The pads of one seed differ in their parameters alone.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from softgrip.arrays import Floats
+from softgrip.simulator.chance import SEED, streams
+from softgrip.simulator.force_layer import ForceLayer
+from softgrip.simulator.force_tests import put_down, weight_forces
+from softgrip.simulator.pad import convert, make_pad, press, to_volts, voltages
+from softgrip.simulator.pad_calibration_table import ceiling_force, least_force
+from softgrip.simulator.pad_hand import FULL
+from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.simulator.pad_tests import BETWEEN, PAD_SEED, PAD_TESTS, PadTest, draw_contacts
+from softgrip.tactile.contact_kind import bagged_neighbours, classifiers, nearest_neighbours
+from softgrip.tactile.contact_pose import place_errors
+from softgrip.tactile.contacts import ELEMENTS, Contacts
+from softgrip.tactile.element import Element
+from softgrip.tactile.force import table_2_2
+from softgrip.tactile.friction import lift_force, printed_grasps
+from softgrip.tactile.kind_evaluation import accuracy, right_on_new, split_score
+from softgrip.tactile.nadaraya_watson import NadarayaWatson, best_bandwidth
+from softgrip.twin.laboratory import Laboratory
+from softgrip.twin.rigs import Row
+from softgrip.twin.space import rows
+from softgrip.twin.step_tests import Measures
+from softgrip.units import GRAM_FORCE
+
+SPLITS = 20
+"""Seeds of splits in training and testing over which accuracies are averaged."""
+NEIGHBOURS = range(1, 11)
+SINGLE, BAGGED = "k-nearest neighbours", "bagged neighbours"
+FIELDS = ("young_modulus", "cover", "spread", "rest_spread", "gain_spread", "stiffness_spread",
+          "height_spread", "repeatability", "noise", "tilt")  # fmt: skip
+TIMES = 10
+"""Measurements of each object of Table 2.2."""
+
+
+def pad_of(row: Row) -> PadParameters:
+    """Return the pad of a set of values."""
+    own: dict[str, Any] = {name: row[f"pad.{name}"] for name in FIELDS}
+    return replace(PadParameters(), element=Element("pyramid", cut=row["pad.cut"]), **own)
+
+
+def layer_of(row: Row) -> ForceLayer:
+    """Return the force layer of a set of values."""
+    return ForceLayer(
+        soft_force=row["layer.soft_force"],
+        memory=(row["layer.memory_fast"], row["layer.memory_slow"]),
+        voltage_noise=row["layer.voltage_noise"],
+        seating=row["layer.seating"],
+        object_seating=row["layer.object_seating"],
+    )
+
+
+def felt(test: PadTest, parameters: PadParameters) -> Contacts:
+    """Return the contacts of a test as a pad feels them, normalised as those of a log are."""
+    pad = make_pad(parameters, PAD_SEED)
+    laid, noise = streams(test.seed, 0)
+    count = 0
+
+    def read(forces: Floats) -> Floats:
+        nonlocal count
+        count += 1
+        counts = convert(voltages(pad, forces, BETWEEN * count, noise), parameters)
+        return to_volts(counts, parameters)
+
+    rest = read(np.zeros(ELEMENTS))[:ELEMENTS]
+    full = np.array([read(FULL * one)[k] for k, one in enumerate(np.eye(ELEMENTS))])
+    drawn, volts, times = [], [], []
+    for item, pose, force in draw_contacts(test, parameters.tilt, laid):
+        drawn.append((item, pose, force))
+        volts.append(read(press(pad, item, pose, force, laid)))
+        times.append(BETWEEN * count)
+    seen = np.array(volts)
+    return Contacts(
+        responses=np.clip((seen[:, :ELEMENTS] - rest) / (full - rest), 0, 1),
+        layer=seen[:, ELEMENTS],
+        times=np.array(times),
+        kinds=np.array([item.kind for item, _, _ in drawn]),
+        objects=np.array([item.name for item, _, _ in drawn]),
+        places=np.array([pose.place for _, pose, _ in drawn]),
+        angles=np.array([p.angle if item.kind == "line" else np.nan for item, p, _ in drawn]),
+        forces=np.array([force for _, _, force in drawn]),
+    )
+
+
+def _columns(lab: Laboratory, measure: Callable[[Row], dict[str, float]]) -> Measures:
+    """Measure each pad by itself."""
+    found = [measure(row) for row in rows(lab.values)]
+    return {name: np.array([one[name] for one in found]) for name in found[0]}
+
+
+def elements(lab: Laboratory) -> Measures:
+    """Return the forces at which a pyramid begins to feel, and reaches its ceiling, N."""
+    return _columns(
+        lab, lambda row: {"least": least_force(pad_of(row)), "ceiling": ceiling_force(pad_of(row))}
+    )
+
+
+def lifts(lab: Laboratory) -> Measures:
+    """Return the estimated lift forces at rest, Eq. (2.9), N.
+
+    The controller brings the measured force to the desired one, so that these are printed ones
+    times the friction.
+    """
+    friction = lab["choice.friction"]
+    return {
+        name: np.array([lift_force(float(one.contact), float(f)) for f in friction])
+        for name, one in printed_grasps().items()
+    }
+
+
+def weights(lab: Laboratory) -> Measures:
+    """Return Table 2.2: mean and deviation of ten measurements of each object, gf.
+
+    And the mean of the deviations, N. The regressor of Section 2.3 is fitted to the 69 points.
+    """
+    return _columns(lab, lambda row: _weighed(layer_of(row)))
+
+
+def _weighed(layer: ForceLayer) -> dict[str, float]:
+    known = put_down(weight_forces(), seed=SEED, run=0, layer=layer)
+    points = known.voltage[:, None]
+    width = best_bandwidth(points, known.force, groups=known.force)
+    model = NadarayaWatson(width).fit(points, known.force)
+    objects = table_2_2()
+    forces = np.repeat([weighed.true for weighed in objects.values()], TIMES)
+    made = put_down(forces, seed=SEED, run=2, layer=layer, seating=layer.object_seating)
+    found = model.predict(made.voltage[:, None]).reshape(-1, TIMES) / GRAM_FORCE
+    deviations = found.std(axis=1, ddof=1)
+    means = dict(zip(objects, found.mean(axis=1).tolist(), strict=True))
+    own = dict(zip((f"deviation-{name}" for name in objects), deviations.tolist(), strict=True))
+    return {**means, **own, "deviation": float(deviations.mean()) * GRAM_FORCE}
+
+
+def kinds(lab: Laboratory) -> Measures:
+    """Return the accuracies of Sections 2.3 and 2.4, %, the best k, and the elements of a line."""
+    return _columns(lab, lambda row: _kinds(pad_of(row)))
+
+
+def _kinds(parameters: PadParameters) -> dict[str, float]:
+    training, objects = (
+        felt(PAD_TESTS[name], parameters) for name in ("pad-training", "pad-objects")
+    )
+    x, y = training.responses, training.kinds
+
+    def on_objects(model: Any) -> float:
+        right = right_on_new(model, x, y, objects.responses, objects.kinds)
+        return 100 * accuracy(right).share
+
+    by_name = {name: _scores(training, _named(name)) for name in classifiers()}
+    by_k = [_scores(training, _of_k(k))[0] for k in NEIGHBOURS]
+    others = [found for name, found in by_name.items() if name not in (SINGLE, BAGGED)]
+    accuracies = {"single": by_name[SINGLE], "bagged": by_name[BAGGED]}
+    accuracies["others"] = tuple(np.max(others, axis=0).tolist())
+    line = place_errors(objects, parameters.layout).elements[objects.kinds == "line"]
+    # Of whole numbers, the one that is reached, none between two of them.
+    least, most = np.quantile(line, (0.1, 0.9), method="inverted_cdf")
+    return {
+        "best-k": float(NEIGHBOURS[int(np.argmax(by_k))]),
+        **{f"{name}-training": trained for name, (trained, _) in accuracies.items()},
+        **{f"{name}-testing": tested for name, (_, tested) in accuracies.items()},
+        "objects-single": on_objects(nearest_neighbours()),
+        "objects-bagged": on_objects(bagged_neighbours()),
+        "line-least": float(least),
+        "line-most": float(most),
+    }
+
+
+def _named(name: str) -> Callable[[int], Any]:
+    return lambda seed: classifiers(seed)[name]
+
+
+def _of_k(k: int) -> Callable[[int], Any]:
+    return lambda _: nearest_neighbours(k)
+
+
+def _scores(felt: Contacts, make: Callable[[int], Any]) -> tuple[float, ...]:
+    """Return the mean accuracies over the splits, cross-validated and tested, %."""
+    found = [split_score(make(k), felt.responses, felt.kinds, seed=k) for k in range(SPLITS)]
+    both = [(one.cross_validated.share, one.tested.share) for one in found]
+    return tuple((100 * np.mean(both, axis=0)).tolist())
+
+
+FAST = {"pad elements": elements, "lifts": lifts, "weights": weights}
+SLOW = {"kinds": kinds}
