@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from book.chapter_6.controllers import gripper_controller
+from book.chapter_6.controllers import gripper_controller, own_model, target_angles
 from book.chapter_6.logs import PUSH_FROM, PUSH_UNTIL, RUNS, names_of, push_left
 from softgrip.arrays import Floats
 from softgrip.control.step_metrics import final_value
@@ -125,3 +125,8 @@ def volume_for(count: int, angle: float) -> float:
     The fingers are those of the simulated gripper, in turn.
     """
     return statics.volume_for(printed_gripper(spread=False), count, angle)
+
+
+def desired() -> Floats:
+    """Return what of 45 deg for both fingers the gripper's own model can reach, rad."""
+    return target_angles(own_model())

@@ -17,7 +17,7 @@ from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
 from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.sensors import Measurement
-from softgrip.simulator.simulation import Simulation, Truth
+from softgrip.simulator.simulation import LARGEST_STEP, Simulation, Truth
 
 
 @dataclass(frozen=True)
@@ -39,6 +39,22 @@ class Records:
     true_pressure: Floats
     true_angle: Floats
     plunger: Floats
+
+
+STIFF = 2.0
+"""Largest product of step and fastest rate: the classical Runge-Kutta method is stable to 2.78."""
+
+
+def step_for(rig: RigParameters) -> float:
+    """Return a step, s, that is short enough for all rates of decay of a rig."""
+    rates = [1 / rig.sensors.pressure_lag, 1 / rig.sensors.angle_lag]
+    largest = np.exp(3 * rig.spread.damping)
+    for finger in rig.fingers:
+        # Where it is at rest dry friction is a damper, the steepest that it ever is.
+        friction = finger.friction / finger.friction_rate
+        rates.append((largest * finger.damping + friction) / finger.inertia)
+        rates += [1 / time for time in finger.memory_time]
+    return min(LARGEST_STEP, STIFF / max(rates))
 
 
 def _record(command: Floats, seen: Measurement, true: Truth) -> Records:
@@ -80,7 +96,8 @@ def open_loop(
     """
     made = []
     for rig, sequence in zip(rigs, commands, strict=True):
-        seen, true = Simulation(rig, runs=runs, seed=seed, plunger=plunger).open_loop(sequence)
+        own = Simulation(rig, runs=runs, seed=seed, plunger=plunger, step=step_for(rig))
+        seen, true = own.open_loop(sequence)
         made.append(_record(sequence, seen, true))
     return _joined(made)
 
@@ -105,7 +122,7 @@ def closed_loop(
     """
     made = []
     for rig, controller in zip(rigs, controllers, strict=True):
-        own = Simulation(rig, runs=runs, seed=seed, period=period)
+        own = Simulation(rig, runs=runs, seed=seed, period=period, step=step_for(rig))
         run = drive(own, controller(), duration=duration, limit=SPEED_LIMIT)
         # What differs between the runs of a controller is not of interest.
         made.append(_record(run.command[:, 0], run.measured, run.truth))

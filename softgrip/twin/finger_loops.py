@@ -49,10 +49,19 @@ def full_curve(finger: SecondOrder, pump_gain: float) -> ReactionCurve:
     )
 
 
-def fingers(lab: Laboratory) -> list[SecondOrder]:
-    """Return the finger that each laboratory identified."""
-    columns = (column.tolist() for column in vars(lab.finger).values())
-    return [SecondOrder(*row) for row in zip(*columns, strict=True)]
+def models(lab: Laboratory) -> list[tuple[SecondOrder, float]]:
+    """Return finger and pump gain that each laboratory identified.
+
+    Where one identified none, any serves: what follows is not told, see `_told`.
+    """
+    columns = (*vars(lab.finger).values(), lab.pump_gain)
+    rows = zip(*(np.where(lab.known, x, 1.0).tolist() for x in columns), strict=True)
+    return [(SecondOrder(w, z, k), pump_gain) for w, z, k, pump_gain in rows]
+
+
+def _told(lab: Laboratory, found: Measures) -> Measures:
+    """Return measures, NaN where no model was identified."""
+    return {name: np.where(lab.known, values, np.nan) for name, values in found.items()}
 
 
 def pid_gains(lab: Laboratory, design: str) -> list[Gains]:
@@ -63,10 +72,8 @@ def pid_gains(lab: Laboratory, design: str) -> list[Gains]:
         design: One of `PIDS`.
     """
     found = []
-    for k, (finger, pump_gain) in enumerate(zip(fingers(lab), lab.pump_gain, strict=True)):
-        curve = (
-            actuator_curve(finger) if design == "actuator" else full_curve(finger, float(pump_gain))
-        )
+    for k, (finger, pump_gain) in enumerate(models(lab)):
+        curve = actuator_curve(finger) if design == "actuator" else full_curve(finger, pump_gain)
         rule = ziegler_nichols(curve)
         kp, ki, kd = (
             getattr(rule, name) * float(lab[f"choice.{design}_{name}"][k])
@@ -115,7 +122,8 @@ def _step(lab: Laboratory, makers: list[partial[Controller]], step: str, band: s
     )
     angle = made.angle[:, 0, 0]
     left = np.abs(target - final_value(made.time, angle, window=END))
-    return {"settling": settled(made.time, angle, target, lab[band] * DEG), "error": left / DEG}
+    settling = settled(made.time, angle, target, lab[band] * DEG)
+    return _told(lab, {"settling": settling, "error": left / DEG})
 
 
 def _regulator(finger: SecondOrder, pump_gain: float, jerk: float) -> Controller:
@@ -128,10 +136,8 @@ def _regulator(finger: SecondOrder, pump_gain: float, jerk: float) -> Controller
 def regulator(lab: Laboratory) -> Measures:
     """Return settling time, s, and error, % of the step, of the regulator of Figure 3.12."""
     makers = [
-        partial(_regulator, finger, float(gain), float(jerk))
-        for finger, gain, jerk in zip(
-            fingers(lab), lab.pump_gain, lab["choice.lqr_jerk"], strict=True
-        )
+        partial(_regulator, finger, pump_gain, float(jerk))
+        for (finger, pump_gain), jerk in zip(models(lab), lab["choice.lqr_jerk"], strict=True)
     ]
     found = _step(lab, makers, "choice.lqr_step", "choice.lqr_band")
     return {**found, "error": 100 * found["error"] / lab["choice.lqr_step"]}
@@ -154,18 +160,15 @@ def pid_on_models(lab: Laboratory) -> Measures:
     band = step * lab["choice.model_band"] / 100
     for design in PIDS:
         angles = []
-        for k, gains in enumerate(pid_gains(lab, design)):
-            finger = fingers(lab)[k]
-            system = (
-                state_space(finger)
-                if design == "actuator"
-                else full_state_space(finger, float(lab.pump_gain[k]))
-            )
-            limit = SET_PRESSURE if design == "actuator" else SPEED_LIMIT
-            made = linear_loop(system, gains, limit, step=float(step[k]), duration=DURATION)
+        alone = design == "actuator"
+        limit = SET_PRESSURE if alone else SPEED_LIMIT
+        designed = zip(models(lab), pid_gains(lab, design), step.tolist(), strict=True)
+        for (finger, pump_gain), gains, size in designed:
+            system = state_space(finger) if alone else full_state_space(finger, pump_gain)
+            made = linear_loop(system, gains, limit, step=size, duration=DURATION)
             angles.append(np.ravel(made.measured))
         found[design] = settled(made.time, np.array(angles), step, band, window=0.0)
-    return found
+    return _told(lab, found)
 
 
 def tracking(lab: Laboratory) -> Measures:
@@ -182,7 +185,7 @@ def tracking(lab: Laboratory) -> Measures:
         (stairs[0].size - 1) * PERIOD,
     )
     delays = [lag(r, y, PERIOD) for r, y in zip(stairs, made.angle[:, 0, 0], strict=True)]
-    return {"lag": np.array(delays)}
+    return _told(lab, {"lag": np.array(delays)})
 
 
 FAST = {

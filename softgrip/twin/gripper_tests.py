@@ -5,6 +5,7 @@ from functools import partial
 import numpy as np
 
 from softgrip.arrays import Floats
+from softgrip.control.rig_controller import CommandSequence, RigController
 from softgrip.control.state_feedback import SPEED_DIGITS
 from softgrip.control.step_metrics import final_value, settling_time
 from softgrip.gripper.internal_model import (
@@ -49,11 +50,26 @@ def steps(lab: Laboratory) -> Measures:
     elements = {"damping": 2 * z * w, "stiffness": w * w}
     found = {f"angle-{side}": ends[:, k] for k, side in enumerate(SIDES)}
     for name, values in elements.items():
-        mean = values.mean(axis=1)
+        mean, off = _over_runs(values)
         found |= {f"{name}-{side}": mean[:, k] for k, side in enumerate(SIDES)}
-        off = np.abs(values / mean[:, None] - 1)
-        found[f"deviation-{name}"] = 100 * off.max(axis=(1, 2))
+        found[f"deviation-{name}"] = 100 * off.max(axis=1)
     return {**found, **_excited(test.command, lab["choice.excited_share"])}
+
+
+def _over_runs(values: Floats) -> tuple[Floats, Floats]:
+    """Return the mean over the runs that identify a model, and the largest deviation as a share.
+
+    Args:
+        values: Shape (rigs, runs, fingers), NaN where a run identifies none.
+
+    Returns:
+        tuple: Shape (rigs, fingers) each, NaN where no run does.
+    """
+    told = np.isfinite(values)
+    with np.errstate(invalid="ignore"):
+        mean = np.where(told, values, 0.0).sum(axis=1) / told.sum(axis=1)
+    off = np.where(told, np.abs(values / mean[:, None] - 1), 0.0).max(axis=1)
+    return mean, np.where(np.isnan(mean), np.nan, off)
 
 
 def _excited(command: Floats, share: Floats) -> Measures:
@@ -83,7 +99,9 @@ def speeds(lab: Laboratory) -> Measures:
     return {**found, **_excited(test.command, lab["choice.excited_share"])}
 
 
-def _controller(gripper: Gripper, target_loop: str, target: Floats) -> InternalModelController:
+def _controller(gripper: Gripper | None, target_loop: str, target: Floats) -> RigController:
+    if gripper is None:
+        return CommandSequence([])
     low_pass = filter_state_space(*FILTERS[target_loop])
     matrices = controller_matrices(gripper, mean_inverse(gripper), low_pass, period=PERIOD)
     return InternalModelController(matrices, target, digits=SPEED_DIGITS)
@@ -93,9 +111,13 @@ def loops(lab: Laboratory) -> Measures:
     """Return what the scheme of Figure 6.3 does with either filter, medians of the runs.
 
     Settling time of both fingers about their own ends, s; error of the worse finger at rest, and
-    the largest difference of the shares of their ways, deg; all without the sensors.
+    the largest difference of the shares of their ways, deg; all without the sensors. NaN where the
+    steps identify no model.
     """
-    targets = np.array([project(one, [WANTED] * 2).reached for one in lab.grippers])
+    unknown = np.full(2, np.nan)
+    targets = np.array(
+        [unknown if one is None else project(one, [WANTED] * 2).reached for one in lab.grippers]
+    )
     band = lab["choice.gripper_band"] / 100
     found: Measures = {}
     for target_loop in FILTERS:
@@ -115,7 +137,7 @@ def loops(lab: Laboratory) -> Measures:
         shares = angle / targets[:, None, :, None]
         apart = np.ptp(shares, axis=2) * targets.mean(axis=1)[:, None, None]
         measures = {
-            "settling": settled.max(axis=2),
+            "settling": np.where(np.isnan(targets[:, :1]), np.nan, settled.max(axis=2)),
             "error": np.abs(ends - targets[:, None]).max(axis=2) / DEG,
             "apart": apart.max(axis=2) / DEG,
         }

@@ -17,6 +17,10 @@ from softgrip.twin.least_squares import Which, fit
 
 FREQUENCIES = 12
 """Of the starts of `identify_second_order`, as of `identify`."""
+FARTHEST = 60.0
+"""Size of a logarithm of mass, damping or stiffness beyond which nothing changes any more."""
+LEAST_ANGLE, LEAST_PRESSURE = 1e-3, 1.0
+"""rad and Pa."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +70,10 @@ def identify_second_order(time: Floats, signal: Floats, output: Floats) -> Secon
     Args:
         time: Even, s, shape (N,).
         signal, output: Shape (records, N); at rest at an input of 0 before the first sample.
+
+    Returns:
+        SecondOrders: NaN where the frequency leaves what the record can tell, as `identify` refuses
+            it: below a tenth of one by its length, or above what its samples follow.
     """
     period, duration = float(time[1] - time[0]), float(time[-1] - time[0])
     u_scale, y_scale = np.abs(signal).max(axis=1), np.ptp(output, axis=1)
@@ -90,7 +98,8 @@ def identify_second_order(time: Floats, signal: Floats, output: Floats) -> Secon
     unit = second_order_responses(u, period, w, z)
     off = unit - unit.mean(axis=1, keepdims=True)
     gain = np.sum(off * y, axis=1) / np.sum(off**2, axis=1)
-    return SecondOrders(w, z, gain * y_scale / u_scale)
+    told = (w > 1.01 * band[0]) & (w < band[1] / 1.01)
+    return SecondOrders(*(np.where(told, x, np.nan) for x in (w, z, gain * y_scale / u_scale)))
 
 
 def ludwick_responses(
@@ -132,7 +141,7 @@ def fit_ludwick(
     """
 
     def finger(x: Floats) -> LudwickFinger:
-        mass, damping, stiffness = np.exp(x.T)
+        mass, damping, stiffness = np.exp(np.clip(x.T, -FARTHEST, FARTHEST))
         return LudwickFinger(mass, damping, stiffness, power)
 
     def residual(x: Floats, which: Which) -> Floats:
@@ -142,7 +151,9 @@ def fit_ludwick(
         return np.nan_to_num(np.clip(made, -1e3, 1e3), nan=1e3) - angle[which]
 
     tail = slice(-max(1, time.size // 10), None)
-    end, push = angle[:, tail].mean(axis=1), pressure[:, tail].mean(axis=1)
+    # A finger that does not bend has no stiffness to begin with.
+    end = np.maximum(angle[:, tail].mean(axis=1), LEAST_ANGLE)
+    push = np.maximum(pressure[:, tail].mean(axis=1), LEAST_PRESSURE)
     stiffness = push / end**power
     duration, period = time[-1] - time[0], float(time[1] - time[0])
     frequency, ratio = np.meshgrid(

@@ -21,7 +21,7 @@ from softgrip.simulator.steps import DURATION, step_commands
 from softgrip.twin import rigs as making
 from softgrip.twin.experiments import Records, closed_loop, open_loop
 from softgrip.twin.identification import SecondOrders, identify_second_order
-from softgrip.twin.pressure_models import Push, first_capacity
+from softgrip.twin.pressure_models import Flags, Push, first_capacity
 from softgrip.twin.space import Values, rows
 from softgrip.twin.statics import travel_for
 from softgrip.units import DEG, ML, MM, REV, MPa
@@ -114,6 +114,12 @@ class Laboratory:
         push = self.default_push
         return push.flow / (1.65 * REV) / first_capacity(push, LOW_PRESSURE)
 
+    @cached_property
+    def known(self) -> Flags:
+        """Which laboratories have a model of finger and pump to design a controller on."""
+        positive = (*vars(self.finger).values(), self.pump_gain)
+        return np.asarray(np.all([np.isfinite(x) & (x > 0) for x in positive], axis=0))
+
     def gripper_steps(
         self, speed: Floats, runs: int, *, rest: float | None = None
     ) -> tuple[Records, Floats]:
@@ -154,13 +160,19 @@ class Laboratory:
         return identify_second_order(test.time, *(x.reshape(-1, x.shape[-1]) for x in flat))
 
     @cached_property
-    def grippers(self) -> list[Gripper]:
-        """P(s) of each gripper, by the mean of the runs in open loop, input in rad/s."""
+    def grippers(self) -> list[Gripper | None]:
+        """P(s) of each gripper, by the mean of the runs in open loop, input in rad/s.
+
+        None where the runs identify none.
+        """
         found = self.identified_fingers(self.gripper_open.angle.mean(axis=1))
-        elements = [
-            FingerDynamics(float(2 * z * w), float(w**2), float(k * w**2))
-            for w, z, k in zip(
-                found.natural_frequency, found.damping_ratio, found.gain, strict=True
-            )
-        ]
-        return [Gripper(pair) for pair in zip(elements[::2], elements[1::2], strict=True)]
+        w, z, k = (x.reshape(self.count, -1).tolist() for x in vars(found).values())
+        return [_gripper(*rows) for rows in zip(w, z, k, strict=True)]
+
+
+def _gripper(w: list[float], z: list[float], k: list[float]) -> Gripper | None:
+    """Return P(s) of natural frequencies, damping ratios and gains, if all are above zero."""
+    if not all(x > 0 for x in (*w, *z, *k)):
+        return None
+    elements = zip(w, z, k, strict=True)
+    return Gripper(tuple(FingerDynamics(2 * d * f, f**2, gain * f**2) for f, d, gain in elements))

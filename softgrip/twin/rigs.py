@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from softgrip.actuator.printed import section, table_3_2
+from softgrip.simulator.calibration import FULL_PRESSURE
 from softgrip.simulator.gripper_parameters import SYRINGE
 from softgrip.simulator.parameters import (
     FingerParameters,
@@ -17,25 +18,37 @@ from softgrip.simulator.parameters import (
     Spread,
 )
 from softgrip.simulator.scaled_section import with_section
+from softgrip.units import DEG
 
 Row = Mapping[str, float]
 """The values of one rig; see `space.rows`."""
 Make = Callable[[Row], RigParameters]
 
 
+def _stiffness(row: Row, name: str) -> float:
+    """Return K, N m/rad^n, of the finger of a group of values: the torque that holds 1 rad."""
+    full = row["finger.torque_per_pressure"] * FULL_PRESSURE
+    return float(full / (row[f"{name}.full_angle"] * DEG) ** row["rubber.power"])
+
+
 def _finger(row: Row, name: str) -> FingerParameters:
-    """Return the finger of a group of values; the rubber is Dragon Skin 20."""
+    """Return the finger of a group of values; the rubber is Dragon Skin 20.
+
+    Its frequency and damping ratio are those of small motions about 1 rad, without the memory.
+    """
+    n, stiffness = row["rubber.power"], _stiffness(row, name)
+    inertia = n * stiffness / row[f"{name}.frequency"] ** 2
     return FingerParameters(
-        stiffness=row[f"{name}.stiffness"],
-        fractional_power=row["rubber.power"],
-        inertia=row[f"{name}.inertia"],
-        damping=row[f"{name}.damping"],
+        stiffness=stiffness,
+        fractional_power=n,
+        inertia=inertia,
+        damping=2 * row[f"{name}.damping_ratio"] * row[f"{name}.frequency"] * inertia,
         torque_per_pressure=row["finger.torque_per_pressure"],
         rest_volume=row["finger.rest_volume"],
         ballooning=row["finger.ballooning"],
         memory=(row["rubber.memory_fast"], row["rubber.memory_slow"]),
         memory_time=(row["rubber.time_fast"], row["rubber.time_slow"]),
-        friction=row["rubber.friction"],
+        friction=row["rubber.friction"] * _stiffness(row, "finger"),
     )
 
 

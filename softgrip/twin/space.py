@@ -30,7 +30,7 @@ class Parameter:
     """One line of the space.
 
     Attributes:
-        name: Group and name, such as ``finger.stiffness``; the group ``choice`` holds what an
+        name: Group and name, such as ``finger.frequency``; the group ``choice`` holds what an
             experiment leaves open and no rig has.
         unit: Of value, low and high.
         value: Of the calibrated rig, or our choice.
@@ -90,8 +90,8 @@ def values(rigs: int = 1, changed: Mapping[str, ArrayLike] = NOTHING) -> dict[st
         UnknownNameError: If there is no such parameter.
         InvalidInputError: If a value is not finite or has another shape.
 
-    >>> values(2, {"finger.inertia": [1e-3, 2e-3]})["finger.inertia"].tolist()
-    [0.001, 0.002]
+    >>> values(2, {"finger.frequency": [2.0, 3.0]})["finger.frequency"].tolist()
+    [2.0, 3.0]
     """
     found = {name: np.full(rigs, one.value) for name, one in space().items()}
     for name, given in changed.items():

@@ -7,7 +7,10 @@ from softgrip.control.designs import unit_step
 from softgrip.control.ziegler_nichols import integrating_reaction_curve, reaction_curve
 from softgrip.dynamics.second_order import SecondOrder, full_state_space, state_space
 from softgrip.logs.steps import judge_step
-from softgrip.twin.finger_loops import actuator_curve, full_curve, settled
+from softgrip.twin.finger_loops import actuator_curve, full_curve, pid_on_models, settled
+from softgrip.twin.identification import SecondOrders
+from softgrip.twin.laboratory import Laboratory
+from softgrip.twin.space import values
 from softgrip.units import DEG
 
 
@@ -33,3 +36,13 @@ def test_steps_settle_when_the_judge_of_logs_says():
     known = judge_step(time, angle, 60 * DEG)
     assert found[0] == known.settled_2_deg[0]
     assert found[1:] == pytest.approx(known.settled_5_deg[1:])
+
+
+def test_where_no_model_was_identified_nothing_is_told():
+    lab = Laboratory(values(2))
+    known = (1.65, 0.86, 1.5e-4)
+    lab.__dict__["finger"] = SecondOrders(*(np.array([x, np.nan]) for x in known))
+    lab.__dict__["pump_gain"] = np.full(2, 840.0)
+    for found in pid_on_models(lab).values():
+        assert found[0] > 0
+        assert np.isnan(found[1])

@@ -8,6 +8,7 @@ from softgrip.dynamics.identify import identify
 from softgrip.dynamics.ludwick import LudwickFinger, pressure_response
 from softgrip.dynamics.ludwick_fit import fit_finger
 from softgrip.dynamics.second_order import SecondOrder, response
+from softgrip.errors import InvalidInputError
 from softgrip.twin.identification import (
     fit_ludwick,
     identify_second_order,
@@ -62,3 +63,11 @@ def test_ludwick_fit_is_that_of_one_record(power):
         ).finger
         for name in ("mass", "damping", "stiffness"):
             assert getattr(found, name)[k] == pytest.approx(getattr(known, name), rel=1e-4), name
+
+
+def test_a_record_that_tells_no_frequency_gives_none():
+    """An angle that follows the pressure at once: any frequency above the sampling will do."""
+    found = identify_second_order(TIME, PRESSURE, 1e-4 * PRESSURE)
+    assert np.isnan(found.natural_frequency).all()
+    with pytest.raises(InvalidInputError, match="determines"):
+        identify(TIME, PRESSURE[0], 1e-4 * PRESSURE[0], initial_input=0.0)

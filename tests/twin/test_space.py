@@ -62,16 +62,16 @@ def test_each_has_a_reason_and_ends_that_a_rig_can_have():
 
 
 def test_a_share_runs_over_the_range():
-    plain, log = space()["choice.pid_band"], space()["finger.inertia"]
+    plain, log = space()["choice.pid_band"], space()["finger.frequency"]
     assert plain.at([0, 0.5, 1]).tolist() == [1, 5.5, 10]
     assert log.at([0, 1]) == pytest.approx([log.low, log.high])
     assert log.at(0.5) == pytest.approx((log.low * log.high) ** 0.5)
 
 
 def test_values_of_some_rigs():
-    found = values(3, {"rubber.power": [1.0, 2.0, 3.0], "finger.inertia": 1e-3})
+    found = values(3, {"rubber.power": [1.0, 2.0, 3.0], "finger.frequency": 2.0})
     assert [row["rubber.power"] for row in rows(found)] == [1.0, 2.0, 3.0]
-    assert found["finger.inertia"].tolist() == [1e-3] * 3
+    assert found["finger.frequency"].tolist() == [2.0] * 3
     assert set(found) == set(space())
 
 
@@ -79,8 +79,8 @@ def test_values_of_some_rigs():
     ("changed", "error"),
     [
         ({"finger.mass": 1.0}, UnknownNameError),
-        ({"finger.inertia": [1.0, 2.0]}, InvalidInputError),
-        ({"finger.inertia": np.nan}, InvalidInputError),
+        ({"finger.frequency": [1.0, 2.0]}, InvalidInputError),
+        ({"finger.frequency": np.nan}, InvalidInputError),
     ],
 )
 def test_other_values_are_refused(changed, error):
