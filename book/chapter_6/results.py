@@ -124,7 +124,7 @@ def volume_for(count: int, angle: float) -> float:
 
     The fingers are those of the simulated gripper, in turn.
     """
-    return statics.volume_for(printed_gripper(spread=False), count, angle)
+    return float(statics.volume_for(printed_gripper(spread=False), count, angle))
 
 
 def desired() -> Floats:

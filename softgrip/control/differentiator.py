@@ -60,7 +60,7 @@ class RobustDifferentiator:
     discretization of homogeneous differentiators", Automatica 50 (2014) 2007-2014.
 
     Args:
-        jerk: Bound of the third derivative, rad/s^3, > 0.
+        jerk: Bound of the third derivative, rad/s^3, > 0; a number or shape (runs,).
         period: s, > 0.
 
     >>> line = RobustDifferentiator(5.0)
@@ -70,7 +70,7 @@ class RobustDifferentiator:
     [4.99, 0.5]
     """
 
-    def __init__(self, jerk: float, *, period: float = PERIOD) -> None:
+    def __init__(self, jerk: Number, *, period: float = PERIOD) -> None:
         check_positive(jerk=jerk, period=period)
         self.jerk, self.period = jerk, period
         self._state: Floats | None = None

@@ -6,7 +6,7 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats, Number, check_positive
 from softgrip.control.differentiator import Differentiator
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import canonical_form
@@ -31,7 +31,7 @@ class StateFeedback:
 
     Args:
         gain: K, shape (3,), or (3, runs) for a map of gains.
-        input_gain: The gain in C, rad/s^3, > 0: see `lqr.input_gain`.
+        input_gain: The gain in C, rad/s^3, > 0: see `lqr.input_gain`; a number or shape (runs,).
         differentiator: Gives the derivatives; its period is the loop's.
         set_speed: omega_m, rad/s, > 0, as in `input_gain`.
 
@@ -44,7 +44,7 @@ class StateFeedback:
     def __init__(
         self,
         gain: ArrayLike,
-        input_gain: float,
+        input_gain: Number,
         differentiator: Differentiator,
         *,
         set_speed: float = SPEED_LIMIT,

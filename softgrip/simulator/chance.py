@@ -30,18 +30,33 @@ def _stream(seed: int, run: int, which: int) -> np.random.Generator:
 class Chance:
     """What chance gives to the runs `first` to `first + runs` of a seed.
 
+    After `cycle` runs, if that is given, their numbers begin again: rigs of one batch, repeated as
+    often each, then meet the same chance.
+
     Attributes:
         stiffness, damping: Multiples of the parameters of each finger, median 1, shape (fingers,
             runs).
         leakage: The same of the leak, shape (runs,).
     """
 
-    def __init__(self, spread: Spread, *, fingers: int, seed: int, first: int, runs: int) -> None:
+    def __init__(
+        self,
+        spread: Spread,
+        *,
+        fingers: int,
+        seed: int,
+        first: int,
+        runs: int,
+        cycle: int | None = None,
+    ) -> None:
         self.seed, self.first = seed, first
-        drawn = np.zeros((1 + 2 * fingers, runs))
+        self._single = min(runs, cycle or runs)
+        self._which = np.arange(runs) % self._single
+        drawn = np.zeros((1 + 2 * fingers, self._single))
         if any(np.any(getattr(spread, field.name)) for field in fields(spread)):
-            for run in range(runs):
+            for run in range(self._single):
                 drawn[:, run] = _stream(seed, first + run, 0).standard_normal(len(drawn))
+        drawn = drawn[:, self._which]
         # So the kept logs were made: the leak of a single finger is drawn last, of several first.
         leak = 2 if fingers == 1 else 0
         own = np.delete(drawn, leak, axis=0)
@@ -49,12 +64,20 @@ class Chance:
         self.damping: Floats = np.exp(spread.damping * own[1::2])
         self.leakage: Floats = np.exp(spread.leakage * drawn[leak])
         self._noise: list[np.random.Generator] = []
-        self._block = np.empty((_BLOCK, 1 + fingers, runs))
+        self._block = np.empty((_BLOCK, 1 + fingers, self._single))
         self._used = _BLOCK
 
-    def stream(self, run: int) -> np.random.Generator:
-        """Return the generator, at its start, of the noise of one of the runs, from 0."""
-        return _stream(self.seed, self.first + run, 1)
+    def noises(self, runs: slice, out: Floats) -> None:
+        """Fill with the noise of the first samples of some runs, shape (runs, samples, sensors)."""
+        drawn: dict[int, Floats] = {}
+        for row, number in zip(out, self._which[runs].tolist(), strict=True):
+            if number not in drawn:
+                drawn[number] = self._stream(number).standard_normal(row.shape)
+            row[:] = drawn[number]
+
+    def _stream(self, number: int) -> np.random.Generator:
+        """Return the generator, at its start, of the noise of a run, from 0."""
+        return _stream(self.seed, self.first + number, 1)
 
     def noise(self) -> Floats:
         """Return the noise of the next sample, standard normal, shape (1 + fingers, runs).
@@ -62,12 +85,12 @@ class Chance:
         Of the pressure, then of each angle.
         """
         if not self._noise:
-            self._noise = [self.stream(run) for run in range(self._block.shape[-1])]
+            self._noise = [self._stream(run) for run in range(self._single)]
         if self._used == _BLOCK:
             # A block at a time: a call for each run and sample would cost more than the physics.
             for run, generator in enumerate(self._noise):
                 self._block[:, :, run] = generator.standard_normal(self._block.shape[:2])
             self._used = 0
         self._used += 1
-        drawn: Floats = self._block[self._used - 1]
+        drawn: Floats = self._block[self._used - 1][:, self._which]
         return drawn

@@ -61,6 +61,7 @@ def drive_compiled(
     push: ArrayLike | None = None,
     every: int = 1,
     delay: int = 0,
+    unread: int = 0,
     keep: Collection[str] = ("pressure", "angle"),
 ) -> Trajectories:
     """Run a controller on a rig at rest, as `drive.drive` does and to 1e-9 of what it gives.
@@ -75,6 +76,8 @@ def drive_compiled(
         duration, limit, every, delay: As of `drive.drive`.
         push: Torque on the fingers, N m, over each period of the rig, the last one held; shape
             (periods, fingers) or (runs, periods, fingers); None for what `Simulation.push` says.
+        unread: Samples at the start whose noise is none, >= 0: 1 for a rig that is first read at
+            the end of a period, as `Simulation.open_loop` does, so that the noise is the same.
         keep: Names of what is returned, of `QUANTITIES`: each costs 8 bytes a run and sample.
 
     Raises:
@@ -118,8 +121,7 @@ def drive_compiled(
         # A batch that does not fill its lanes repeats its last run.
         lanes = np.minimum(np.arange(part.start, part.start + kernel.LANES), count - 1)
         if heard:
-            for lane, run in enumerate(range(part.start, part.stop)):
-                rig.chance.stream(run).standard_normal(out=noise[lane])
+            rig.chance.noises(part, noise[: part.stop - part.start, unread:])
         kernel.experiment(
             _records(kernel.RIG, air, lanes, (1,)),
             _records(kernel.FINGER, own, lanes, (fingers,)),
@@ -127,7 +129,6 @@ def drive_compiled(
             kernel.Law(
                 **{name: _in_lanes(array, lanes) for name, array in law.items()},
                 scale=0.0 if control.digits is None else 10.0**control.digits,
-                jerk=control.jerk or 0.0,
                 period=every * rig.period,
             ),
             noise,
@@ -210,7 +211,7 @@ def _arrays_of_law(law: SampledLaw, rig: Simulation, every: int) -> dict[str, Fl
         InvalidInputError: If one has another shape or is not finite, or the period is another.
     """
     m, count = law.matrices, rig.runs
-    inputs = 3 if law.jerk else len(rig.parameters.fingers)
+    inputs = len(rig.parameters.fingers) if law.jerk is None else 3
     n, targets = np.shape(m.A)[-1], np.shape(m.D_target)[-1]
     if not (np.isnan(m.period) or np.isclose(m.period, every * rig.period)):
         raise InvalidInputError(
@@ -230,6 +231,7 @@ def _arrays_of_law(law: SampledLaw, rig: Simulation, every: int) -> dict[str, Fl
         "integral": _of_runs("integral", integral, (n,), count),
         "least": _of_runs("least", law.least, (), count),
         "largest": _of_runs("largest", law.largest, (), count),
+        "jerk": _of_runs("jerk", 0.0 if law.jerk is None else law.jerk, (), count),
         "reference": _of_runs("reference", law.reference, (None, targets), count),
     }
 

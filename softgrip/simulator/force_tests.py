@@ -5,11 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, Number
 from softgrip.simulator.chance import streams
 from softgrip.simulator.force_layer import (
     ForceLayer,
-    felt_force,
     layer_voltage,
     read_counts,
     volts,
@@ -53,7 +52,7 @@ def put_down(
     seed: int,
     run: int,
     layer: ForceLayer | None = None,
-    seating: float | None = None,
+    seating: Number | None = None,
     age: float = 0.0,
     unloaded: float | Floats = UNLOADED,
 ) -> Reading:
@@ -62,7 +61,8 @@ def put_down(
     Args:
         forces: N, shape (weights,), exact: what is recorded is the weight itself.
         seed, run: Of chance.
-        layer: Its parameters; None for those of `ForceLayer`.
+        layer: Its parameters; None for those of `ForceLayer`. For several layers, numbers of shape
+            (layers, 1): all meet the same chance.
         seating: Spread of what the layer feels of a weight; None for that of calibration weights.
         age: h, when the first weight is put down.
         unloaded: s, after each weight; a number or shape (weights,).
@@ -75,11 +75,15 @@ def put_down(
     loaded = round(LOADED / PERIOD)
     lengths = loaded + np.rint(np.broadcast_to(unloaded, true.shape) / PERIOD).astype(int)
     starts = np.concatenate([[0], np.cumsum(lengths)[:-1]])
-    force = np.zeros(int(lengths.sum()))
-    for start, weight in zip(starts, true * felt_parts, strict=True):
-        force[start : start + loaded] = weight
     read = starts + round(READ / PERIOD)
-    felt = felt_force(force, PERIOD, layer)[read]
+    force = true * felt_parts
+    felt = (1 - sum(layer.memory)) * force
+    on = read[:, None] - starts
+    off = np.maximum(on - loaded, 0)
+    for part, lag in zip(layer.memory, layer.lag, strict=True):
+        # As `felt_force`, in closed form: the force of each weight is a pulse.
+        kept = np.exp(-PERIOD / lag)
+        felt = felt + part * (force @ np.where(on > 0, kept**off - kept ** np.maximum(on, 0), 0).T)
     return reading(read * PERIOD, true, felt, age, noise.standard_normal(len(true)), layer)
 
 

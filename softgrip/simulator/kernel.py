@@ -111,9 +111,9 @@ class Law(NamedTuple):
     integral: Any
     least: Any
     largest: Any
+    jerk: Any
     reference: Any
     scale: float
-    jerk: float
     period: float
 
 
@@ -328,7 +328,7 @@ def _add(total, weights, values):
 @_compiled
 def _see(law, angle, predicted, first, inputs):
     """Write what the law looks at: the angles, or the derivatives of their mean."""
-    if law.jerk == 0:
+    if law.jerk[0] == 0:
         _copy(angle, inputs)
         return
     for j in range(LANES):
@@ -340,7 +340,7 @@ def _see(law, angle, predicted, first, inputs):
             predicted[0, j], predicted[1, j], predicted[2, j] = mean, 0.0, 0.0
         a, b, c = predicted[0, j], predicted[1, j], predicted[2, j]
         inputs[0, j], inputs[1, j], inputs[2, j] = a, b, c
-        a, b, c = _predict(a, b, c, mean, law.jerk, law.period)
+        a, b, c = _predict(a, b, c, mean, law.jerk[j], law.period)
         predicted[0, j], predicted[1, j], predicted[2, j] = a, b, c
 
 

@@ -5,6 +5,7 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from softgrip.arrays import Number
 from softgrip.errors import InvalidInputError
@@ -37,8 +38,8 @@ def stacked(rigs: Sequence[RigParameters]) -> RigParameters:
     return joined
 
 
-def take(rig: RigParameters, part: slice) -> RigParameters:
-    """Return some of the rigs of a batch; a rig of all runs stays as it is."""
+def take(rig: RigParameters, part: slice | NDArray[np.intp]) -> RigParameters:
+    """Return some of the rigs of a batch, or some again; a rig of all runs stays as it is."""
     taken: RigParameters = _each(lambda value: value[part] if np.ndim(value) else value, rig)
     return taken
 

@@ -5,9 +5,10 @@ rounded, and the robust differentiator, which may stand ahead of the law.
 """
 
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from softgrip.arrays import Floats, Number
 from softgrip.control.differentiator import PolynomialDifferentiator, RobustDifferentiator
@@ -36,7 +37,7 @@ class SampledLaw:
         least, largest: Limits that the law knows, rad/s; numbers or shape (runs,).
         digits: Decimals to which the command is given; None for all.
         jerk: Of a `RobustDifferentiator` that gives angle, rate and acceleration of the mean of the
-            measured angles as the law's three inputs; None for none.
+            measured angles as the law's three inputs, a number or shape (runs,); None for none.
     """
 
     matrices: ControllerMatrices
@@ -46,7 +47,25 @@ class SampledLaw:
     least: Number = -np.inf
     largest: Number = np.inf
     digits: int | None = None
-    jerk: float | None = None
+    jerk: Number | None = None
+
+
+AXES = {
+    "A": 2, "B_measured": 2, "B_target": 2, "B_sent": 1, "C": 1, "D_measured": 1, "D_target": 1,
+    "reference": 2, "start": 2, "integral": 1, "least": 0, "largest": 0, "jerk": 0,
+}  # fmt: skip
+"""Of each array of a law, without that of the runs."""
+
+
+def of_runs(law: SampledLaw, which: NDArray[np.intp]) -> SampledLaw:
+    """Return the law whose runs are some of a law's, or some again; what is of all stays so."""
+
+    def taken(part: SampledLaw | ControllerMatrices) -> dict[str, Any]:
+        own: dict[str, Any] = {name: getattr(part, name, None) for name in AXES}
+        runs = {name for name, value in own.items() if np.ndim(value) > AXES[name]}
+        return {name: own[name][which] for name in runs if len(own[name]) > 1}
+
+    return replace(law, matrices=replace(law.matrices, **taken(law.matrices)), **taken(law))
 
 
 def command_law(commands: ArrayLike, fingers: int) -> SampledLaw:
@@ -85,7 +104,7 @@ def sampled_law(controller: RigController, fingers: int) -> SampledLaw:
         case Tracking():
             law = _of_one_angle(controller.controller)
             law = replace(law, reference=controller.reference[:, None])
-            return law if law.jerk else _of_mean(law, fingers)
+            return _of_mean(law, fingers) if law.jerk is None else law
     raise _unknown(controller)
 
 

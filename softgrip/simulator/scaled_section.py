@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from softgrip.actuator.bending import modified_moment
 from softgrip.actuator.frequency import rubber_mass
 from softgrip.actuator.section import Section, chamber_area, check_section, torque
@@ -27,7 +29,7 @@ def with_section(rig: RigParameters, section: Section, known: Section) -> RigPar
     check_section(section)
     finger, n = rig.finger, rig.finger.fractional_power
     pushes = torque(section, 1.0) / torque(known, 1.0)
-    if not pushes > 0:
+    if not np.all(pushes > 0):
         raise InvalidInputError("section", expected="one with b > t", got=section)
     stiffer = modified_moment(n, section.width, section.height) / modified_moment(
         n, known.width, known.height

@@ -61,6 +61,8 @@ class Simulation:
         runs: Number of runs; None for as many as the parameters are of.
         seed: Of all chance.
         first: Number of the first run: run i of a batch is run 0 of ``Simulation(..., first=i)``.
+        cycle: Runs after which these numbers begin again; None for never. Rigs that are repeated as
+            often each, one after the other, then meet the same chance.
         period: Sampling period, s; commands are held over it.
         plunger: Travel of the plunger at the start, m, a number or shape (runs,).
         contact: What the fingers touch; None for nothing.
@@ -82,6 +84,7 @@ class Simulation:
         runs: int | None = None,
         seed: int = 0,
         first: int = 0,
+        cycle: int | None = None,
         period: float = PERIOD,
         plunger: ArrayLike = 0.0,
         contact: DiscBetweenFingers | None = None,
@@ -111,7 +114,9 @@ class Simulation:
             )
         self.parameters, self.runs, self.period = rig, runs, period
         count = len(rig.fingers)
-        self.chance = Chance(rig.spread, fingers=count, seed=seed, first=first, runs=runs)
+        self.chance = Chance(
+            rig.spread, fingers=count, seed=seed, first=first, runs=runs, cycle=cycle
+        )
         self.plant = Plant(rig, self.chance, contact)
         # The screw stands where it has drawn the plunger to.
         self._plunger, self._screw = place, place

@@ -147,6 +147,9 @@ PIDS = {
 }
 REGULATORS = {
     "LQR, robust differentiator": lambda: StateFeedback(GAIN, 60.0, RobustDifferentiator(10.0)),
+    "LQR, robust differentiator a run": lambda: StateFeedback(
+        GAIN, 60.0, RobustDifferentiator(np.array([1.0, 10.0, 100.0]))
+    ),
     "LQR a run, robust differentiator": lambda: StateFeedback(
         np.outer(GAIN, [0.5, 1.0, 2.0]), 60.0, RobustDifferentiator(10.0)
     ),
@@ -294,3 +297,14 @@ def test_bad_value_is_refused_by_name(name, options):
     arguments = {"control": np.ones(1), "duration": 1.0, **options}
     with pytest.raises(InvalidInputError, match=name):
         drive_compiled(Simulation(FINGER, runs=2), **arguments)
+
+
+def test_numbers_of_runs_begin_again_after_a_cycle():
+    """Two rigs, three runs each: those of either rig alone, from its first sample or its second."""
+    rigs, speeds = differing(FINGER, 2), commands(20, 1)[0]
+    lanes = [rig for rig in rigs for _ in range(3)]
+    both = drive_compiled(Simulation(lanes, seed=4, cycle=3), speeds, duration=0.5, unread=1)
+    for k, rig in enumerate(rigs):
+        seen, _ = Simulation(rig, runs=3, seed=4).open_loop(speeds)
+        own = both.angle[3 * k : 3 * k + 3, 0, 1:]
+        np.testing.assert_allclose(own, seen.angle[:, 0].T, rtol=0, atol=1e-9)
