@@ -1,39 +1,47 @@
 """The one place where the twin meets the simulator: one experiment on many rigs, repeated on each.
 
-A faster simulator needs to give `Records` of the same runs, from the same streams of chance, and
-nothing else of the twin changes.
+All rigs meet the same chance. The noise of the sensors is that of `Simulation.open_loop`, whose
+records begin at the end of the first period, and that of `drive`, whose records begin at rest: so
+the same seed gives the runs of the book's logs.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.pid import PERIOD
-from softgrip.control.rig_controller import RigController
 from softgrip.simulator.chance import SEED
-from softgrip.simulator.drive import drive
+from softgrip.simulator.compiled import drive_compiled
+from softgrip.simulator.drive import Driven, drive
+from softgrip.simulator.law_controller import LawController
 from softgrip.simulator.parameters import RigParameters
-from softgrip.simulator.sensors import Measurement
-from softgrip.simulator.simulation import LARGEST_STEP, Simulation, Truth
+from softgrip.simulator.rig_batch import run_count, take
+from softgrip.simulator.sampled_law import SampledLaw, command_law, of_runs
+from softgrip.simulator.simulation import LARGEST_STEP, Simulation
+
+KEPT = ("pressure", "angle", "true_pressure", "true_angle", "plunger")
+NOTHING: Floats = np.empty(0)
 
 
 @dataclass(frozen=True)
 class Records:
     """What was recorded of an experiment on some rigs, SI; runs are repeats on one rig.
 
+    What was not asked for is `NOTHING`.
+
     Attributes:
         time: Shape (N,), even.
-        command: Held *until* each time, as in logs, shape (rigs, N).
         pressure, angle: As measured, shapes (rigs, runs, N) and (rigs, runs, fingers, N).
         true_pressure, true_angle: Without the sensors, same shapes.
         plunger: Its travel, shape (rigs, runs, N).
     """
 
     time: Floats
-    command: Floats
     pressure: Floats
     angle: Floats
     true_pressure: Floats
@@ -43,87 +51,128 @@ class Records:
 
 STIFF = 2.0
 """Largest product of step and fastest rate: the classical Runge-Kutta method is stable to 2.78."""
+STEPS = np.unique([part * 2**k // 2 for part in (2, 3) for k in range(16)])
+"""Numbers of steps in a period, 1, 2, 3, 4, 6, ...: few, so that many rigs of a batch share one,
+and a rig's own hangs on no other."""
 
 
-def step_for(rig: RigParameters) -> float:
-    """Return a step, s, that is short enough for all rates of decay of a rig."""
-    rates = [1 / rig.sensors.pressure_lag, 1 / rig.sensors.angle_lag]
-    largest = np.exp(3 * rig.spread.damping)
-    for finger in rig.fingers:
+def steps_for(rigs: RigParameters, period: float) -> NDArray[np.intp]:
+    """Return how many steps in a period [s] are short enough for all rates of decay, (rigs,)."""
+    rates: list[Any] = [1 / LARGEST_STEP * STIFF]
+    rates += [1 / rigs.sensors.pressure_lag, 1 / rigs.sensors.angle_lag]
+    largest = np.exp(3 * rigs.spread.damping)
+    for finger in rigs.fingers:
         # Where it is at rest dry friction is a damper, the steepest that it ever is.
         friction = finger.friction / finger.friction_rate
         rates.append((largest * finger.damping + friction) / finger.inertia)
         rates += [1 / time for time in finger.memory_time]
-    return min(LARGEST_STEP, STIFF / max(rates))
-
-
-def _record(command: Floats, seen: Measurement, true: Truth) -> Records:
-    """Return the records of the runs of one rig; here the axis of rigs has one element."""
-    return Records(
-        np.asarray(seen.time),
-        command[None],
-        *(
-            np.moveaxis(values, 0, -1).swapaxes(0, -2)[None]
-            for values in (seen.pressure, seen.angle, true.pressure, true.angle, true.plunger)
-        ),
-    )
-
-
-def _joined(parts: Sequence[Records]) -> Records:
-    """Return the records of several rigs as one."""
-    names = [field.name for field in fields(Records)][1:]
-    return Records(
-        parts[0].time, *(np.concatenate([getattr(one, name) for one in parts]) for name in names)
-    )
+    fastest = np.max(np.broadcast_arrays(*rates, np.zeros(run_count(rigs))), axis=0)
+    least = np.ceil(fastest * period / STIFF - 1e-9)
+    return np.asarray(STEPS[np.minimum(np.searchsorted(STEPS, least), STEPS.size - 1)])
 
 
 def open_loop(
-    rigs: Sequence[RigParameters],
-    commands: Sequence[Floats],
+    rigs: RigParameters,
+    commands: Floats,
     *,
     runs: int = 1,
     plunger: float = 0.0,
     seed: int = SEED,
+    keep: Collection[str] = KEPT,
+    compiled: bool = True,
 ) -> Records:
     """Send each rig its commands; the records begin at the end of the first period.
 
     Args:
-        rigs: Their parameters.
-        commands: Motor speeds of each, rad/s, shape (N,), of one length.
+        rigs: Their parameters, numbers or shape (rigs,).
+        commands: Motor speeds of all or of each, rad/s, shape (N,) or (rigs, N).
         runs: Repeats on each rig.
         plunger: Travel at the start, m.
         seed: Of all chance, the same on all rigs.
+        keep: Names of what is recorded.
+        compiled: False for the simulator on NumPy, which is hundreds of times slower.
     """
-    made = []
-    for rig, sequence in zip(rigs, commands, strict=True):
-        own = Simulation(rig, runs=runs, seed=seed, plunger=plunger, step=step_for(rig))
-        seen, true = own.open_loop(sequence)
-        made.append(_record(sequence, seen, true))
-    return _joined(made)
+    law = command_law(commands, len(rigs.fingers))
+    duration = commands.shape[-1] * PERIOD
+    return _records(
+        rigs, law, duration, runs, PERIOD, seed, keep, compiled, plunger=plunger, unread=1
+    )
 
 
 def closed_loop(
-    rigs: Sequence[RigParameters],
-    controllers: Sequence[Callable[[], RigController]],
+    rigs: RigParameters,
+    law: SampledLaw,
     duration: float,
     *,
     runs: int = 1,
     period: float = PERIOD,
     seed: int = SEED,
+    keep: Collection[str] = KEPT,
+    compiled: bool = True,
 ) -> Records:
     """Run a controller on each rig, from rest; the records begin before it moves.
 
     Args:
-        rigs: Their parameters.
-        controllers: What makes the controller of each.
+        rigs, runs, seed, keep, compiled: As of `open_loop`.
+        law: Of all rigs, or with a leading axis of rigs.
         duration: s.
-        runs, seed: As of `open_loop`.
         period: Of rig and controller, s.
     """
-    made = []
-    for rig, controller in zip(rigs, controllers, strict=True):
-        own = Simulation(rig, runs=runs, seed=seed, period=period, step=step_for(rig))
-        run = drive(own, controller(), duration=duration, limit=SPEED_LIMIT)
-        # What differs between the runs of a controller is not of interest.
-        made.append(_record(run.command[:, 0], run.measured, run.truth))
-    return _joined(made)
+    return _records(rigs, law, duration, runs, period, seed, keep, compiled)
+
+
+def _records(
+    rigs: RigParameters,
+    law: SampledLaw,
+    duration: float,
+    runs: int,
+    period: float,
+    seed: int,
+    keep: Collection[str],
+    compiled: bool,
+    *,
+    plunger: float = 0.0,
+    unread: int = 0,
+) -> Records:
+    """Return the samples from number `unread` on."""
+    count, size = run_count(rigs), round(duration / period) + 1 - unread
+    shapes = {name: (len(rigs.fingers),) * name.endswith("angle") for name in keep}
+    found = {name: np.empty((count, runs, *shape, size)) for name, shape in shapes.items()}
+    steps = steps_for(rigs, period)
+    for number in np.unique(steps):
+        which = np.flatnonzero(steps == number)
+        lanes = np.repeat(which, runs)
+        own = Simulation(
+            take(rigs, lanes), runs=lanes.size, seed=seed, cycle=runs, period=period,
+            plunger=plunger, step=period / number,
+        )  # fmt: skip
+        control = of_runs(law, lanes)
+        made = (
+            vars(drive_compiled(own, control, duration=duration, unread=unread, keep=keep))
+            if compiled
+            else _of_numpy(own, control, duration, unread)
+        )
+        for name, values in found.items():
+            # A view of the kernel's rows.
+            values[which] = made[name][..., unread:].reshape(which.size, *values.shape[1:])
+    time = period * np.arange(unread, unread + float(size))
+    return Records(time, **{name: found.get(name, NOTHING) for name in KEPT})
+
+
+def _of_numpy(rig: Simulation, law: SampledLaw, duration: float, unread: int) -> dict[str, Floats]:
+    """Return what `drive`, or `Simulation.open_loop`, gives of what may be kept, runs first."""
+    if unread:
+        # Such a law looks at nothing: its reference is what it sends, then rest.
+        commands = np.broadcast_to(law.reference, (rig.runs, *law.reference.shape[-2:]))
+        seen, true = rig.open_loop(commands[:, :-1, 0].T)
+        made = Driven(np.asarray(seen.time), commands, seen, true)
+    else:
+        made = drive(rig, LawController(law), duration=duration, limit=SPEED_LIMIT)
+    parts = {name: getattr(made.measured, name) for name in ("pressure", "angle")}
+    parts |= {f"true_{name}": getattr(made.truth, name) for name in parts}
+    parts["plunger"] = made.truth.plunger
+    moved = {name: np.moveaxis(values, (0, -1), (-1, 0)) for name, values in parts.items()}
+    return {
+        name: np.concatenate([values[..., :1]] * unread + [values], axis=-1)
+        for name, values in moved.items()
+    }

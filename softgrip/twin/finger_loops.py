@@ -1,62 +1,66 @@
 """The control of one finger in Chapters 3 and 4 on many rigs: regulator, PIDs, staircase."""
 
-from functools import partial
-from math import acos, acosh
+from dataclasses import replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats
-from softgrip.control.designs import linear_loop
+from softgrip.arrays import Floats, Number
 from softgrip.control.differentiator import RobustDifferentiator
-from softgrip.control.loop import SPEED_LIMIT, Controller
+from softgrip.control.loop import SPEED_LIMIT, Controller, run_loop
 from softgrip.control.lqr import FINGER, Weights, input_gain, lqr_gain
 from softgrip.control.pid import PERIOD, PID, Gains
 from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed
-from softgrip.control.rig_controller import RigController, Tracking
+from softgrip.control.rig_controller import Tracking
 from softgrip.control.staircase import HOLD, staircase
 from softgrip.control.state_feedback import StateFeedback
 from softgrip.control.step_metrics import final_value, settling_time
 from softgrip.control.ziegler_nichols import ReactionCurve, ziegler_nichols
-from softgrip.dynamics.second_order import SecondOrder, free_motion, full_state_space, state_space
-from softgrip.logs.staircase import lag
+from softgrip.dynamics.second_order import free_motion
 from softgrip.logs.steps import END, WINDOW, smoothed
+from softgrip.simulator.sampled_law import sampled_law
 from softgrip.twin import rigs
 from softgrip.twin.experiments import closed_loop
+from softgrip.twin.identification import SecondOrders
 from softgrip.twin.laboratory import Laboratory
+from softgrip.twin.matrix_exponential import matrix_exponential
 from softgrip.twin.step_tests import Measures
 from softgrip.units import DEG
 
 DURATION = 20.0
 """Of a controlled step, s."""
 PIDS = ("actuator", "full")
+LONGEST = 3.0
+"""Largest delay that is tried, s, as of `logs.staircase.lag`."""
 
 
-def actuator_curve(finger: SecondOrder) -> ReactionCurve:
-    """Return the tangent at the inflexion of a finger's step response, in closed form."""
+def actuator_curve(finger: SecondOrders) -> ReactionCurve:
+    """Return the tangents at the inflexion of fingers' step responses, in closed form."""
     w, z = finger.natural_frequency, finger.damping_ratio
-    away = abs(1 - z * z) ** 0.5
-    time = (acos(z) if z < 1 else acosh(z)) / (away * w) if away > 1e-9 else 1 / w
-    c, s = (float(part) for part in free_motion(time, w, z))
+    away = np.abs(1 - z * z) ** 0.5
+    turned = np.where(z < 1, np.arccos(np.minimum(z, 1.0)), np.arccosh(np.maximum(z, 1.0)))
+    time = np.where(away > 1e-9, turned / np.maximum(away, 1e-9), 1.0) / w
+    c, s = free_motion(time, w, z)
     slope = finger.gain * w * w * s
     level = finger.gain * (1 - c - z * w * s)
     return ReactionCurve(time - level / slope, slope, finger.gain)
 
 
-def full_curve(finger: SecondOrder, pump_gain: float) -> ReactionCurve:
+def full_curve(finger: SecondOrders, pump_gain: Number) -> ReactionCurve:
     """Return the asymptote of the step response of pump and finger, in closed form."""
     return ReactionCurve(
         2 * finger.damping_ratio / finger.natural_frequency, finger.gain * pump_gain
     )
 
 
-def models(lab: Laboratory) -> list[tuple[SecondOrder, float]]:
-    """Return finger and pump gain that each laboratory identified.
+def models(lab: Laboratory) -> tuple[SecondOrders, Floats]:
+    """Return finger and pump gain that each laboratory identified, shape (rigs,).
 
     Where one identified none, any serves: what follows is not told, see `_told`.
     """
-    columns = (*vars(lab.finger).values(), lab.pump_gain)
-    rows = zip(*(np.where(lab.known, x, 1.0).tolist() for x in columns), strict=True)
-    return [(SecondOrder(w, z, k), pump_gain) for w, z, k, pump_gain in rows]
+    known = (*vars(lab.finger).values(), lab.pump_gain)
+    w, z, k, pump_gain = (np.where(lab.known, x, 1.0) for x in known)
+    return SecondOrders(w, z, k), pump_gain
 
 
 def _told(lab: Laboratory, found: Measures) -> Measures:
@@ -64,33 +68,36 @@ def _told(lab: Laboratory, found: Measures) -> Measures:
     return {name: np.where(lab.known, values, np.nan) for name, values in found.items()}
 
 
-def pid_gains(lab: Laboratory, design: str) -> list[Gains]:
+def pid_gains(lab: Laboratory, design: str) -> Gains:
     """Return the gains of a PID: those of Ziegler and Nichols, times what trial and error chose.
 
     Args:
         lab: With models that were identified.
         design: One of `PIDS`.
     """
-    found = []
-    for k, (finger, pump_gain) in enumerate(models(lab)):
-        curve = actuator_curve(finger) if design == "actuator" else full_curve(finger, pump_gain)
-        rule = ziegler_nichols(curve)
-        kp, ki, kd = (
-            getattr(rule, name) * float(lab[f"choice.{design}_{name}"][k])
-            for name in ("kp", "ki", "kd")
-        )
-        found.append(Gains(kp, ki, kd, rule.derivative_filter))
-    return found
+    finger, pump_gain = models(lab)
+    curve = actuator_curve(finger) if design == "actuator" else full_curve(finger, pump_gain)
+    rule = ziegler_nichols(curve)
+    own = {n: getattr(rule, n) * lab[f"choice.{design}_{n}"] for n in ("kp", "ki", "kd")}
+    return replace(rule, **own)
 
 
-def _pid(gains: Gains, design: str) -> Controller:
+def _pid(lab: Laboratory, design: str) -> Controller:
+    gains = pid_gains(lab, design)
     if design == "full":
         return PID(gains, limits=(-SPEED_LIMIT, SPEED_LIMIT))
     return PressureAsSpeed(PID(gains, limits=(-SET_PRESSURE, SET_PRESSURE)))
 
 
-def _followed(make: partial[Controller], reference: Floats | float) -> RigController:
-    return Tracking(make(), reference)
+def _followed(
+    lab: Laboratory, controller: Controller, reference: Floats, duration: float
+) -> tuple[Floats, Floats]:
+    """Return time and measured angle of controllers that follow references, (rigs, periods)."""
+    law = replace(sampled_law(Tracking(controller, 0.0), 1), reference=reference[..., None])
+    made = closed_loop(
+        rigs.design_1(lab.values), law, duration, keep=("angle",), compiled=lab.compiled
+    )
+    return made.time, made.angle[:, 0, 0]
 
 
 def settled(
@@ -112,34 +119,23 @@ def settled(
     return np.where(found > time[-1] - END, np.inf, found)
 
 
-def _step(lab: Laboratory, makers: list[partial[Controller]], step: str, band: str) -> Measures:
+def _step(lab: Laboratory, controller: Controller, step: str, band: str) -> Measures:
     """Run a step, and return when it settles, s, and the size of what error is left, deg."""
     target = lab[step] * DEG
-    made = closed_loop(
-        lab.rigs(rigs.design_1),
-        [partial(_followed, m, float(t)) for m, t in zip(makers, target, strict=True)],
-        DURATION,
-    )
-    angle = made.angle[:, 0, 0]
-    left = np.abs(target - final_value(made.time, angle, window=END))
-    settling = settled(made.time, angle, target, lab[band] * DEG)
+    time, angle = _followed(lab, controller, target[:, None], DURATION)
+    left = np.abs(target - final_value(time, angle, window=END))
+    settling = settled(time, angle, target, lab[band] * DEG)
     return _told(lab, {"settling": settling, "error": left / DEG})
-
-
-def _regulator(finger: SecondOrder, pump_gain: float, jerk: float) -> Controller:
-    # The printed frequency and damping; the static gain is the constant obtained by experiment.
-    known = SecondOrder(FINGER.natural_frequency, FINGER.damping_ratio, finger.gain)
-    gain = input_gain(known, pump_gain, SPEED_LIMIT)
-    return StateFeedback(lqr_gain(FINGER, Weights()), gain, RobustDifferentiator(jerk))
 
 
 def regulator(lab: Laboratory) -> Measures:
     """Return settling time, s, and error, % of the step, of the regulator of Figure 3.12."""
-    makers = [
-        partial(_regulator, finger, pump_gain, float(jerk))
-        for (finger, pump_gain), jerk in zip(models(lab), lab["choice.lqr_jerk"], strict=True)
-    ]
-    found = _step(lab, makers, "choice.lqr_step", "choice.lqr_band")
+    finger, pump_gain = models(lab)
+    # The printed frequency and damping; the static gain is the constant obtained by experiment.
+    plant = finger.gain * pump_gain * input_gain(FINGER, 1.0, SPEED_LIMIT)
+    gain = np.repeat(lqr_gain(FINGER, Weights())[:, None], lab.count, axis=1)
+    controller = StateFeedback(gain, plant, RobustDifferentiator(lab["choice.lqr_jerk"]))
+    found = _step(lab, controller, "choice.lqr_step", "choice.lqr_band")
     return {**found, "error": 100 * found["error"] / lab["choice.lqr_step"]}
 
 
@@ -147,10 +143,43 @@ def pid(lab: Laboratory) -> Measures:
     """Return settling time, s, and error, deg, of the two PIDs of Figure 4.5 on the rig."""
     found: Measures = {}
     for design in PIDS:
-        makers = [partial(_pid, gains, design) for gains in pid_gains(lab, design)]
-        step = _step(lab, makers, "choice.pid_step", "choice.pid_band")
+        step = _step(lab, _pid(lab, design), "choice.pid_step", "choice.pid_band")
         found |= {f"{name}-{design}": value for name, value in step.items()}
     return found
+
+
+class Models:
+    """The linear models of Eq. (4.14) or (4.15) of many rigs, exact for a held command.
+
+    Args:
+        finger: Parameters of shape (rigs,).
+        pump_gain: Pa/s per rad/s, shape (rigs,); None for a finger whose command is a pressure.
+    """
+
+    def __init__(self, finger: SecondOrders, pump_gain: Floats | None) -> None:
+        w, zero, one = (
+            finger.natural_frequency,
+            np.zeros_like(finger.gain),
+            np.ones_like(finger.gain),
+        )
+        rows = [
+            [zero, zero, zero, zero if pump_gain is None else pump_gain],
+            [zero, zero, one, zero],
+            [finger.gain * w**2, -(w**2), -2 * finger.damping_ratio * w, zero],
+            [zero] * 4,
+        ]
+        if pump_gain is None:
+            # The command is the pressure itself.
+            rows = [[zero] * 4, rows[1], [zero, *rows[2][1:3], rows[2][0]], [zero] * 4]
+        self._step = matrix_exponential(np.moveaxis(np.array(rows), -1, 0) * PERIOD)[:, :3]
+        self._state = np.zeros((len(w), 3))
+
+    def advance(self, command: ArrayLike, duration: float) -> Floats:
+        """Hold the command for a period, or none, and return the angles, rad, shape (rigs,)."""
+        if duration:
+            moved = np.einsum("rij,rj->ri", self._step[..., :3], self._state)
+            self._state = moved + self._step[..., 3] * np.asarray(command)[:, None]
+        return np.asarray(self._state[:, 1])
 
 
 def pid_on_models(lab: Laboratory) -> Measures:
@@ -158,34 +187,43 @@ def pid_on_models(lab: Laboratory) -> Measures:
     found: Measures = {}
     step = lab["choice.pid_step"] * DEG
     band = step * lab["choice.model_band"] / 100
+    reference = np.repeat(step[:, None], round(DURATION / PERIOD) + 1, axis=1)
+    finger, pump_gain = models(lab)
     for design in PIDS:
-        angles = []
         alone = design == "actuator"
         limit = SET_PRESSURE if alone else SPEED_LIMIT
-        designed = zip(models(lab), pid_gains(lab, design), step.tolist(), strict=True)
-        for (finger, pump_gain), gains, size in designed:
-            system = state_space(finger) if alone else full_state_space(finger, pump_gain)
-            made = linear_loop(system, gains, limit, step=size, duration=DURATION)
-            angles.append(np.ravel(made.measured))
-        found[design] = settled(made.time, np.array(angles), step, band, window=0.0)
+        plant = Models(finger, None if alone else pump_gain)
+        controller = PID(pid_gains(lab, design), limits=(-limit, limit))
+        made = run_loop(plant, controller, reference, duration=DURATION, limit=limit)
+        found[design] = settled(made.time, made.measured, step, band, window=0.0)
     return _told(lab, found)
+
+
+def lags(reference: Floats, angle: Floats) -> Floats:
+    """Return the delays, s, of the largest correlation with a reference; as `logs.staircase.lag`.
+
+    Args:
+        reference: Of all rigs, up to a factor, shape (N,).
+        angle: rad, shape (rigs, N).
+    """
+    size, most = reference.size, round(LONGEST / PERIOD)
+    delayed = np.zeros((most + 1, size))
+    for k, row in enumerate(delayed):
+        row[k:] = reference[: size - k] - reference[: size - k].mean()
+    y = angle - angle.mean(axis=1, keepdims=True)
+    # What of a record is left after a delay: its mean and its sum of squares.
+    left = size - np.arange(most + 1)
+    mean, power = (np.cumsum(x[:, ::-1], axis=1)[:, left - 1] for x in (y, y * y))
+    along = y @ delayed.T / np.sum(delayed**2, axis=1) ** 0.5
+    return np.asarray(np.argmax(along / np.sqrt(power - mean**2 / left), axis=1) * PERIOD)
 
 
 def tracking(lab: Laboratory) -> Measures:
     """Return the delay of the angle behind the staircase of Figure 4.7, s."""
-    increments = lab["choice.stair_increment"] * DEG
-    stairs = [
-        staircase(increment=float(i), top=6 * float(i), hold=HOLD, period=PERIOD)
-        for i in increments
-    ]
-    makers = [partial(_pid, gains, "full") for gains in pid_gains(lab, "full")]
-    made = closed_loop(
-        lab.rigs(rigs.design_1),
-        [partial(_followed, m, r) for m, r in zip(makers, stairs, strict=True)],
-        (stairs[0].size - 1) * PERIOD,
-    )
-    delays = [lag(r, y, PERIOD) for r, y in zip(stairs, made.angle[:, 0, 0], strict=True)]
-    return _told(lab, {"lag": np.array(delays)})
+    one = staircase(increment=1.0, top=6.0, hold=HOLD, period=PERIOD)
+    stairs = (lab["choice.stair_increment"] * DEG)[:, None] * one
+    _, angle = _followed(lab, _pid(lab, "full"), stairs, (one.size - 1) * PERIOD)
+    return _told(lab, {"lag": lags(one, angle)})
 
 
 FAST = {

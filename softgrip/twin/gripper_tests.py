@@ -1,39 +1,35 @@
 """The tests of the gripper in Section 6.4 on many rigs."""
 
-from functools import partial
-
 import numpy as np
 
-from softgrip.arrays import Floats
-from softgrip.control.rig_controller import CommandSequence, RigController
+from softgrip.arrays import Flags, Floats
 from softgrip.control.state_feedback import SPEED_DIGITS
 from softgrip.control.step_metrics import final_value, settling_time
-from softgrip.gripper.internal_model import (
-    PERIOD,
-    InternalModelController,
-    controller_matrices,
-)
-from softgrip.gripper.inversion import mean_inverse
-from softgrip.gripper.plant import Gripper
+from softgrip.gripper.internal_model import PERIOD, ControllerMatrices
+from softgrip.gripper.inversion import LeftInverse, filtered_inverse
+from softgrip.gripper.plant import sampled
 from softgrip.gripper.printed_loop import FILTERS
-from softgrip.gripper.reach import project
 from softgrip.gripper.shaping_filter import filter_state_space
 from softgrip.gripper.uncertainty import excited_band
 from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION
+from softgrip.simulator.sampled_law import SampledLaw
 from softgrip.twin import rigs
 from softgrip.twin.experiments import closed_loop
+from softgrip.twin.identification import SecondOrders
 from softgrip.twin.laboratory import Laboratory
+from softgrip.twin.least_squares import Which
+from softgrip.twin.matrix_exponential import matrix_exponential
 from softgrip.twin.statics import volume_for
 from softgrip.twin.step_tests import Measures
 from softgrip.units import DEG, ML, REV
 
 SIDES = ("left", "right")
-LOOPS, STEPS = 50, 200
-"""Runs of a closed loop of which the median is taken, and of the steps at two speeds."""
 END, REST = 1.0, 5.0
 """s: the end of a record that counts as rest; and the time after a slow push."""
 WANTED = 45 * DEG
 """Of both fingers, rad."""
+RATIO = 1.25
+"""Of the lengths, in powers, in which slow pushes are run together."""
 
 
 def steps(lab: Laboratory) -> Measures:
@@ -44,16 +40,17 @@ def steps(lab: Laboratory) -> Measures:
     """
     test = lab.gripper_open
     ends = final_value(test.time, test.angle.mean(axis=1), window=END) / DEG
-    each = lab.identified_fingers(test.angle)
-    shape = test.angle.shape[:-1]
-    w, z = (x.reshape(shape) for x in (each.natural_frequency, each.damping_ratio))
+    mean = SecondOrders(*(values[:, None] for values in vars(lab.gripper_fingers).values()))
+    each = lab.identified_fingers(test.angle, mean)
+    w, z = each.natural_frequency, each.damping_ratio
     elements = {"damping": 2 * z * w, "stiffness": w * w}
     found = {f"angle-{side}": ends[:, k] for k, side in enumerate(SIDES)}
     for name, values in elements.items():
-        mean, off = _over_runs(values)
-        found |= {f"{name}-{side}": mean[:, k] for k, side in enumerate(SIDES)}
+        middle, off = _over_runs(values)
+        found |= {f"{name}-{side}": middle[:, k] for k, side in enumerate(SIDES)}
         found[f"deviation-{name}"] = 100 * off.max(axis=1)
-    return {**found, **_excited(test.command, lab["choice.excited_share"])}
+    whole = np.full(lab.count, lab.gripper_commands.shape[1])
+    return {**found, **_excited(lab.gripper_commands, whole, lab["choice.excited_share"])}
 
 
 def _over_runs(values: Floats) -> tuple[Floats, Floats]:
@@ -72,11 +69,12 @@ def _over_runs(values: Floats) -> tuple[Floats, Floats]:
     return mean, np.where(np.isnan(mean), np.nan, off)
 
 
-def _excited(command: Floats, share: Floats) -> Measures:
-    bands = [
-        excited_band(own[1:], PERIOD, share=float(part))
-        for own, part in zip(command, share, strict=True)
-    ]
+def _excited(commands: Floats, periods: Which, share: Floats) -> Measures:
+    """Return the bands in which so many periods of commands, then rest, are excited, rad/s."""
+    bands = []
+    for own, size, part in zip(commands, periods.tolist(), share.tolist(), strict=True):
+        lasting = own[:size]
+        bands.append(excited_band(np.pad(lasting, (0, size - lasting.size)), PERIOD, share=part))
     low, high = np.transpose(bands)
     return {"excited-low": low, "excited-high": high}
 
@@ -88,23 +86,72 @@ def speeds(lab: Laboratory) -> Measures:
     """
     found: Measures = {}
     for name in ("gripper_speed", "low_speed"):
-        speed = lab[f"choice.{name}"] * REV
-        test, ends = lab.gripper_steps(speed, STEPS, rest=REST)
-        last = round(END / PERIOD)
-        rest = [
-            angle[:, 0, end - last : end].mean(axis=-1)
-            for angle, end in zip(test.angle, ends, strict=True)
-        ]
-        found[name] = np.std(rest, axis=1, ddof=1) / DEG
-    return {**found, **_excited(test.command, lab["choice.excited_share"])}
+        commands, pushing = lab.pushed(lab[f"choice.{name}"] * REV)
+        periods = pushing + round(REST / PERIOD)
+        found[name] = np.empty(lab.count)
+        length = np.ceil(np.log(periods) / np.log(RATIO))
+        for own in np.unique(length):
+            which = np.flatnonzero(length == own)
+            last = periods[which]
+            test = lab.gripper_steps(
+                commands[which], float(last.max()) * PERIOD, lab.steps, which, keep=("angle",)
+            )
+            at = last[:, None] - np.arange(round(END / PERIOD))
+            rest = np.take_along_axis(test.angle[:, :, 0], at[:, None], axis=-1).mean(axis=-1)
+            found[name][which] = np.std(rest, axis=1, ddof=1) / DEG
+    return {**found, **_excited(commands, periods, lab["choice.excited_share"])}
 
 
-def _controller(gripper: Gripper | None, target_loop: str, target: Floats) -> RigController:
-    if gripper is None:
-        return CommandSequence([])
+def known_fingers(lab: Laboratory) -> tuple[Floats, Flags]:
+    """Return P(s) of each gripper, and which are known.
+
+    Returns:
+        tuple: Damping, 1/s, stiffness, 1/s^2, and gain, rad/s^3 per rad/s, of both fingers, shape
+            (3, rigs, fingers), of ones where the steps identify none; and flags, shape (rigs,).
+    """
+    found = lab.gripper_fingers
+    w, z, k = vars(found).values()
+    known = np.all(found.usable, axis=1, keepdims=True)
+    return np.where(known, np.stack([2 * z * w, w**2, k * w**2]), 1.0), known[:, 0]
+
+
+def internal_model_law(elements: Floats, target_loop: str, target: Floats) -> SampledLaw:
+    """Return the controllers of Figure 6.3, by the mean of the inverses, on fingers that they know.
+
+    `gripper.internal_model.controller_matrices`, for many rigs: the filter times each power of s is
+    made discrete once, and weighed by the inverse of each rig.
+
+    Args:
+        elements: Damping, stiffness and gain, shape (3, rigs, fingers).
+        target_loop: A key of `FILTERS`.
+        target: rad, shape (rigs, fingers).
+    """
+    damping, stiffness, gain = elements
+    count, fingers = gain.shape
     low_pass = filter_state_space(*FILTERS[target_loop])
-    matrices = controller_matrices(gripper, mean_inverse(gripper), low_pass, period=PERIOD)
-    return InternalModelController(matrices, target, digits=SPEED_DIGITS)
+    powers = filtered_inverse(LeftInverse(np.eye(4)), low_pass)
+    A_f, B_powers, C_f, D_powers = sampled(powers, PERIOD, "bilinear")
+    zero, one = np.zeros_like(gain), np.ones_like(gain)
+    inverse = np.stack([one, damping, stiffness, zero]) / (fingers * gain)
+    B_f = np.einsum("np,prf->rnf", B_powers, inverse)
+    D_f = np.einsum("p,prf->rf", D_powers[0], inverse)
+    # The plant: the integral of the input, then angle and rate over gain of each finger.
+    n_f, n_p = len(A_f), 1 + 2 * fingers
+    plant = np.zeros((count, n_p + 1, n_p + 1))
+    plant[:, 0, n_p] = 1
+    for k in range(fingers):
+        angle, rate = 1 + 2 * k, 2 + 2 * k
+        plant[:, angle, rate] = plant[:, rate, 0] = 1
+        plant[:, rate, angle], plant[:, rate, rate] = -stiffness[:, k], -damping[:, k]
+    held = matrix_exponential(plant * PERIOD)
+    A, C = np.zeros((count, n_f + n_p, n_f + n_p)), np.zeros((count, n_f + n_p))
+    A[:, :n_f, :n_f], A[:, n_f:, n_f:], C[:, :n_f] = A_f, held[:, :n_p, :n_p], C_f
+    A[:, :n_f, n_f + 1 :: 2], C[:, n_f + 1 :: 2] = B_f * gain[:, None], D_f * gain
+    B = np.zeros((count, n_f + n_p, fingers))
+    B[:, :n_f] = B_f
+    B_sent = np.concatenate([np.zeros((count, n_f)), held[:, :n_p, n_p]], axis=1)
+    matrices = ControllerMatrices(A, -B, B, B_sent, C, -D_f, D_f, PERIOD)
+    return SampledLaw(matrices, target[:, None], digits=SPEED_DIGITS)
 
 
 def loops(lab: Laboratory) -> Measures:
@@ -114,19 +161,21 @@ def loops(lab: Laboratory) -> Measures:
     the largest difference of the shares of their ways, deg; all without the sensors. NaN where the
     steps identify no model.
     """
-    unknown = np.full(2, np.nan)
-    targets = np.array(
-        [unknown if one is None else project(one, [WANTED] * 2).reached for one in lab.grippers]
-    )
+    elements, known = known_fingers(lab)
+    # Eq. (6.24): what of equal angles lies along the velocity gains.
+    q = elements[2] / elements[1]
+    targets = WANTED * q.sum(axis=1, keepdims=True) * q / np.sum(q * q, axis=1, keepdims=True)
     band = lab["choice.gripper_band"] / 100
     found: Measures = {}
     for target_loop in FILTERS:
-        controllers = [
-            partial(_controller, gripper, target_loop, target)
-            for gripper, target in zip(lab.grippers, targets, strict=True)
-        ]
         made = closed_loop(
-            lab.rigs(rigs.gripper), controllers, OPEN_LOOP_DURATION, runs=LOOPS, period=PERIOD
+            rigs.gripper(lab.values),
+            internal_model_law(elements, target_loop, targets),
+            OPEN_LOOP_DURATION,
+            runs=lab.loops,
+            period=PERIOD,
+            keep=("true_angle",),
+            compiled=lab.compiled,
         )
         angle = made.true_angle
         ends = final_value(made.time, angle)
@@ -135,20 +184,22 @@ def loops(lab: Laboratory) -> Measures:
             made.time, angle / allowed[..., None], final=ends / allowed, band=1.0, absolute=True
         )
         shares = angle / targets[:, None, :, None]
-        apart = np.ptp(shares, axis=2) * targets.mean(axis=1)[:, None, None]
+        apart = np.abs(shares[:, :, 0] - shares[:, :, 1]) * targets.mean(axis=1)[:, None, None]
         measures = {
-            "settling": np.where(np.isnan(targets[:, :1]), np.nan, settled.max(axis=2)),
+            "settling": settled.max(axis=2),
             "error": np.abs(ends - targets[:, None]).max(axis=2) / DEG,
             "apart": apart.max(axis=2) / DEG,
         }
-        found |= {f"{name}-{target_loop}": np.median(v, axis=1) for name, v in measures.items()}
+        found |= {
+            f"{name}-{target_loop}": np.where(known, np.median(values, axis=1), np.nan)
+            for name, values in measures.items()
+        }
     return found
 
 
 def volume(lab: Laboratory) -> Measures:
     """Return the volume that bends three fingers by a right angle, mL, Section 6.3."""
-    made = [volume_for(rig, 3, np.pi / 2) / ML for rig in lab.rigs(rigs.gripper)]
-    return {"three": np.array(made)}
+    return {"three": volume_for(rigs.gripper(lab.values), 3, np.pi / 2) / ML}
 
 
 FAST = {"gripper steps": steps, "gripper speeds": speeds, "gripper loops": loops, "volume": volume}

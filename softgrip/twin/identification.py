@@ -4,21 +4,23 @@ Each is `dynamics.identify.identify` or `dynamics.ludwick_fit.fit_finger` withou
 same model, the same squares, the same grid of starts, and so the same minimum.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Flags, Floats, Number
 from softgrip.dynamics.identify import START_DAMPING
-from softgrip.dynamics.integrate import rk4
-from softgrip.dynamics.ludwick import LudwickFinger, derivative
+from softgrip.dynamics.ludwick import LudwickFinger
 from softgrip.dynamics.second_order import free_motion
-from softgrip.twin.least_squares import Which, fit
+from softgrip.twin.least_squares import STEP, Squares, Which, fit
 
 FREQUENCIES = 12
 """Of the starts of `identify_second_order`, as of `identify`."""
 FARTHEST = 60.0
 """Size of a logarithm of mass, damping or stiffness beyond which nothing changes any more."""
+MOST_DAMPING = 1e3
+"""Largest damping ratio, and the inverse of the least, on which a controller is designed."""
 LEAST_ANGLE, LEAST_PRESSURE = 1e-3, 1.0
 """rad and Pa."""
 
@@ -30,6 +32,32 @@ class SecondOrders:
     natural_frequency: Floats
     damping_ratio: Floats
     gain: Floats
+
+    @property
+    def usable(self) -> Flags:
+        """Which have a positive gain and a damping that a record can tell from none or from all."""
+        z = self.damping_ratio
+        told = np.isfinite(self.natural_frequency) & (z > 1 / MOST_DAMPING) & (z < MOST_DAMPING)
+        return np.asarray(told & np.isfinite(self.gain) & (self.gain > 0))
+
+
+def _second_orders(period: float, w: Floats, z: Floats) -> Floats:
+    """Return systems of unit gain as `responses` has them, shape (..., 6, records).
+
+    How angle and rate move freely over a period, and by the difference of the input its slope and
+    how far a ramp is ahead of the angle.
+    """
+    c, s = free_motion(period, w, z)
+    rows = (c + z * w * s, s, -w * w * s, c - z * w * s, np.full_like(w, 1 / period))
+    return np.stack([*rows, 2 * z / (w * period)], axis=-2)
+
+
+def _fingers(
+    period: float, mass: Floats, damping: Floats, stiffness: Floats, power: Number
+) -> Floats:
+    """Return fingers after Eq. (5.16) as `responses` has them, shape (..., 6, records)."""
+    rows = (1 / mass, damping / mass, stiffness / mass, power - 1.0, period, 0.0)
+    return np.stack(np.broadcast_arrays(*rows), axis=-2)
 
 
 def second_order_responses(
@@ -47,59 +75,7 @@ def second_order_responses(
     Returns:
         Floats: Shape (records, N).
     """
-    w, z = natural_frequency, damping_ratio
-    c, s = free_motion(period, w, z)
-    yy, yr, ry, rr = c + z * w * s, s, -w * w * s, c - z * w * s
-    u = np.ascontiguousarray(signal.T)
-    slope, lag = np.diff(u, axis=0) / period, 2 * z / w
-    # What deviates from the exact solution of a ramp moves freely.
-    level = u[:-1] - lag * slope
-    angle = np.zeros_like(u)
-    y, rate = np.zeros(len(w)), np.zeros(len(w))
-    for k, (m, at) in enumerate(zip(slope, level, strict=True)):
-        dy, dr = y - at, rate - m
-        y = at + m * period + yy * dy + yr * dr
-        rate = m + ry * dy + rr * dr
-        angle[k + 1] = y
-    return angle.T
-
-
-def identify_second_order(time: Floats, signal: Floats, output: Floats) -> SecondOrders:
-    """Fit a second-order system with an offset to each record.
-
-    Args:
-        time: Even, s, shape (N,).
-        signal, output: Shape (records, N); at rest at an input of 0 before the first sample.
-
-    Returns:
-        SecondOrders: NaN where the frequency leaves what the record can tell, as `identify` refuses
-            it: below a tenth of one by its length, or above what its samples follow.
-    """
-    period, duration = float(time[1] - time[0]), float(time[-1] - time[0])
-    u_scale, y_scale = np.abs(signal).max(axis=1), np.ptp(output, axis=1)
-    u, y = signal / u_scale[:, None], output / y_scale[:, None]
-
-    def residual(x: Floats, which: Which) -> Floats:
-        unit = second_order_responses(u[which], period, np.exp(x[:, 0]), np.exp(x[:, 1]))
-        # Gain and offset of least squares follow from the rest.
-        level, other = unit.mean(axis=1, keepdims=True), y[which].mean(axis=1, keepdims=True)
-        off, wanted = unit - level, y[which] - other
-        gain = np.sum(off * wanted, axis=1) / np.maximum(np.sum(off**2, axis=1), 1e-300)
-        return np.asarray(gain[:, None] * off - wanted)
-
-    band = (0.1 / duration, np.pi / period)
-    grid = np.stack(
-        np.meshgrid(np.log(np.geomspace(*band, FREQUENCIES)), np.log(START_DAMPING)), axis=-1
-    ).reshape(-1, 2)
-    everyone = np.tile(np.arange(len(u)), len(grid))
-    costs = np.sum(residual(np.repeat(grid, len(u), axis=0), everyone) ** 2, axis=1)
-    found = fit(residual, grid[np.argmin(costs.reshape(len(grid), -1), axis=0)])
-    w, z = np.exp(found).T
-    unit = second_order_responses(u, period, w, z)
-    off = unit - unit.mean(axis=1, keepdims=True)
-    gain = np.sum(off * y, axis=1) / np.sum(off**2, axis=1)
-    told = (w > 1.01 * band[0]) & (w < band[1] / 1.01)
-    return SecondOrders(*(np.where(told, x, np.nan) for x in (w, z, gain * y_scale / u_scale)))
+    return _responses(True, signal, _second_orders(period, natural_frequency, damping_ratio))
 
 
 def ludwick_responses(
@@ -115,18 +91,101 @@ def ludwick_responses(
         pressure: Pa, shape (records, N), straight between samples.
         force_per_pressure: F over P, N/Pa.
     """
-    period, begin = float(time[1] - time[0]), float(time[0])
-    push = force_per_pressure * np.ascontiguousarray(pressure.T) / np.asarray(finger.mass)
-    last = len(push) - 1
-    still = derivative(finger, 0.0)
+    parts: Number = (finger.mass, finger.damping, finger.stiffness, finger.fractional_power)
+    parts = np.broadcast_arrays(*parts, np.zeros(len(pressure)))
+    systems = _fingers(float(time[1] - time[0]), *parts[:-1])
+    return _responses(False, force_per_pressure * pressure, systems)
 
-    def law(now: float, state: Floats, slope: Floats) -> None:
-        still(now, state, slope)
-        place = (now - begin) / period
-        k = min(int(place + 1e-9), last - 1)
-        slope[1] += push[k] + (place - k) * (push[k + 1] - push[k])
 
-    return np.asarray(rk4(law, np.zeros((2, len(pressure))), time, period, keep=(0,))[:, 0].T)
+def _responses(linear: bool, inputs: Floats, systems: Floats) -> Floats:
+    from softgrip.twin.responses import respond
+
+    out = np.empty(inputs.shape)
+    respond(linear, np.ascontiguousarray(inputs), systems, out)
+    return out
+
+
+def _squares(
+    linear: bool, inputs: Floats, outputs: Floats, systems: Callable[[Floats], Floats]
+) -> tuple[Squares, Callable[[Floats, Which], tuple[Floats, Floats]]]:
+    """Return the squares of a fit of systems to records, and the same without derivatives.
+
+    Args:
+        linear, inputs, outputs: As of `responses.squares`.
+        systems: From parameters, shape (..., fits, P), to systems, shape (..., rows, fits).
+
+    Returns:
+        tuple: The second function gives the sums of squares, and the gains.
+    """
+    from softgrip.twin.responses import squares
+
+    u, y = np.ascontiguousarray(inputs), np.ascontiguousarray(outputs)
+
+    def found(x: Floats, which: Which) -> tuple[Floats, ...]:
+        fits, slopes = x.shape[1], (len(x) - 1) // 2
+        gains, cost = np.empty(fits), np.empty(fits)
+        pull, normal = np.empty((fits, slopes)), np.empty((fits, slopes, slopes))
+        own = np.ascontiguousarray(systems(x))
+        squares(linear, u, y, which, own, STEP, gains, cost, pull, normal)
+        return cost, gains, pull, normal
+
+    def whole(x: Floats, which: Which) -> tuple[Floats, Floats, Floats]:
+        moved = STEP * np.eye(x.shape[1])
+        more_and_less = np.stack([moved, -moved], axis=1).reshape(-1, 1, x.shape[1])
+        cost, _, pull, normal = found(np.concatenate([x[None], x + more_and_less]), which)
+        return cost, pull, normal
+
+    def cost_alone(x: Floats, which: Which) -> tuple[Floats, Floats]:
+        cost, gains, _, _ = found(x[None], which)
+        return cost, gains
+
+    return whole, cost_alone
+
+
+def identify_second_order(
+    time: Floats, signal: Floats, output: Floats, *, start: SecondOrders | None = None
+) -> SecondOrders:
+    """Fit a second-order system with an offset to each record.
+
+    Args:
+        time: Even, s, shape (N,).
+        signal, output: Shapes (..., N) that broadcast; at rest at an input of 0 before the first
+            sample.
+        start: Systems near those that are looked for, of a shape that broadcasts to that of the
+            records; NaN, or None, where none is known: there a grid is searched for one.
+
+    Returns:
+        SecondOrders: NaN where the frequency leaves what the record can tell, as `identify` refuses
+            it: below a tenth of one by its length, or above what its samples follow.
+    """
+    shape = np.broadcast_shapes(signal.shape, output.shape)
+    u, y = (np.broadcast_to(x, shape).reshape(-1, shape[-1]) for x in (signal, output))
+    period, duration = float(time[1] - time[0]), float(time[-1] - time[0])
+    u_scale, y_scale = np.abs(u).max(axis=1), np.ptp(y, axis=1)
+    u, y = u / u_scale[:, None], y / y_scale[:, None]
+    y -= y.mean(axis=1, keepdims=True)
+    squares, alone = _squares(
+        True, u, y, lambda x: _second_orders(period, np.exp(x[..., 0]), np.exp(x[..., 1]))
+    )
+    band = (0.1 / duration, np.pi / period)
+    if start is None:
+        x = np.full((len(u), 2), np.nan)
+    else:
+        known = np.stack([start.natural_frequency, start.damping_ratio], axis=-1)
+        x = np.broadcast_to(np.log(known), (*shape[:-1], 2)).reshape(-1, 2).copy()
+    grid = np.stack(
+        np.meshgrid(np.log(np.geomspace(*band, FREQUENCIES)), np.log(START_DAMPING)), axis=-1
+    ).reshape(-1, 2)
+    lost = np.flatnonzero(np.isnan(x).any(axis=1))
+    if lost.size:
+        costs = [alone(np.broadcast_to(one, (lost.size, 2)), lost)[0] for one in grid]
+        x[lost] = grid[np.argmin(costs, axis=0)]
+    x = fit(squares, x)
+    w, z = np.exp(x).T
+    gain = alone(x, np.arange(len(u)))[1]
+    told = (w > 1.01 * band[0]) & (w < band[1] / 1.01)
+    found = (np.where(told, x, np.nan) for x in (w, z, gain * y_scale / u_scale))
+    return SecondOrders(*(values.reshape(shape[:-1]) for values in found))
 
 
 def fit_ludwick(
@@ -139,32 +198,27 @@ def fit_ludwick(
         power: n, to hold; 1 for the linear model.
         force_per_pressure: F over P, N/Pa.
     """
+    duration, period = time[-1] - time[0], float(time[1] - time[0])
 
-    def finger(x: Floats) -> LudwickFinger:
-        mass, damping, stiffness = np.exp(np.clip(x.T, -FARTHEST, FARTHEST))
-        return LudwickFinger(mass, damping, stiffness, power)
+    def systems(x: Floats) -> Floats:
+        mass, damping, stiffness = np.moveaxis(np.exp(np.clip(x, -FARTHEST, FARTHEST)), -1, 0)
+        return _fingers(period, mass, damping, stiffness, power)
 
-    def residual(x: Floats, which: Which) -> Floats:
-        with np.errstate(all="ignore"):
-            made = ludwick_responses(finger(x), time, pressure[which])
-        # A finger too stiff for the step runs away: any large number says that it is a bad guess.
-        return np.nan_to_num(np.clip(made, -1e3, 1e3), nan=1e3) - angle[which]
-
+    # A finger too stiff for the step runs away: that it is far off says that it is a bad guess.
+    squares, alone = _squares(False, pressure, angle, systems)
     tail = slice(-max(1, time.size // 10), None)
     # A finger that does not bend has no stiffness to begin with.
     end = np.maximum(angle[:, tail].mean(axis=1), LEAST_ANGLE)
     push = np.maximum(pressure[:, tail].mean(axis=1), LEAST_PRESSURE)
     stiffness = push / end**power
-    duration, period = time[-1] - time[0], float(time[1] - time[0])
     frequency, ratio = np.meshgrid(
         np.geomspace(1 / duration, 0.3 / period, 10), START_DAMPING, indexing="ij"
     )
     mass = power * stiffness * end ** (power - 1) / frequency.reshape(-1, 1) ** 2
     damping = 2 * (ratio * frequency).reshape(-1, 1) * mass
     starts = np.log([mass, damping, np.broadcast_to(stiffness, mass.shape)]).transpose(1, 2, 0)
-    everyone = np.tile(np.arange(len(angle)), len(starts))
-    costs = np.sum(residual(starts.reshape(-1, 3), everyone) ** 2, axis=1)
-    best = np.argmin(costs.reshape(len(starts), -1), axis=0)
-    start = starts[best, np.arange(len(angle))]
-    mass, damping, spring = np.exp(fit(residual, start)).T * force_per_pressure
+    everyone = np.arange(len(angle))
+    costs = [alone(one, everyone)[0] for one in starts]
+    start = starts[np.argmin(costs, axis=0), everyone]
+    mass, damping, spring = np.exp(fit(squares, start)).T * force_per_pressure
     return LudwickFinger(mass, damping, spring, power)

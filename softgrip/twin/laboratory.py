@@ -4,25 +4,26 @@ What was recorded once is kept: the controllers know of a rig what its own step 
 tell, as in the laboratory.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Flags, Floats
 from softgrip.control.pid import PERIOD
-from softgrip.control.rig_controller import CommandSequence
 from softgrip.gripper.internal_model import PERIOD as GRIPPER_PERIOD
-from softgrip.gripper.plant import FingerDynamics, Gripper
 from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION, push_commands
 from softgrip.simulator.parameters import RigParameters, Spread
+from softgrip.simulator.rig_batch import take
+from softgrip.simulator.sampled_law import command_law
 from softgrip.simulator.steps import DURATION, step_commands
 from softgrip.twin import rigs as making
-from softgrip.twin.experiments import Records, closed_loop, open_loop
+from softgrip.twin.experiments import KEPT, Records, closed_loop, open_loop
 from softgrip.twin.identification import SecondOrders, identify_second_order
-from softgrip.twin.pressure_models import Flags, Push, first_capacity
-from softgrip.twin.space import Values, rows
+from softgrip.twin.least_squares import Which
+from softgrip.twin.pressure_models import Push, first_capacity
+from softgrip.twin.space import Values
 from softgrip.twin.statics import travel_for
 from softgrip.units import DEG, ML, MM, REV, MPa
 
@@ -36,14 +37,13 @@ CORRECTIONS = 2
 """Simulations that correct the closed form of a step's travel: to a tenth of a degree."""
 
 
-def travels(rigs: Sequence[RigParameters], angle: Floats) -> Floats:
+def travels(rigs: RigParameters, angle: Floats, *, compiled: bool = True) -> Floats:
     """Return the travel of the plunger, m, with which rigs without spread end at angles, rad."""
-    alike = [replace(rig, spread=Spread()) for rig in rigs]
-    stroke = np.array([0.95 * rig.pump.stroke for rig in rigs])
+    alike, stroke = replace(rigs, spread=Spread()), 0.95 * rigs.pump.stroke
     aim = angle
     travel = np.minimum(travel_for(rigs, aim, DURATION), stroke)
     for _ in range(CORRECTIONS):
-        made = open_loop(alike, [step_commands(float(x)) for x in travel])
+        made = open_loop(alike, step_commands(travel), keep=("true_angle",), compiled=compiled)
         aim = np.asarray(aim * angle / made.true_angle[:, 0, 0, -1])
         travel = np.minimum(travel_for(rigs, aim, DURATION), stroke)
     return np.asarray(travel)
@@ -55,9 +55,15 @@ class Laboratory:
 
     Attributes:
         values: By name, shape (rigs,); see `space.values`.
+        compiled: False for the simulator on NumPy.
+        loops, steps: Runs of a closed loop of the gripper of which the median is taken, and of its
+            steps at two speeds: those of the book. Fewer are faster, and more chance is left.
     """
 
     values: Values
+    compiled: bool = True
+    loops: int = 50
+    steps: int = 200
 
     def __getitem__(self, name: str) -> Floats:
         """Return a value of each, shape (rigs,)."""
@@ -68,15 +74,13 @@ class Laboratory:
         """Number of laboratories."""
         return len(next(iter(self.values.values())))
 
-    def rigs(self, make: making.Make) -> list[RigParameters]:
-        """Return the rigs of a kind, such as `rigs.design_1`."""
-        return [make(row) for row in rows(self.values)]
-
-    def step_test(self, make: making.Make, angle: Floats) -> Records:
+    def step_test(
+        self, make: making.Make, angle: Floats, *, keep: Collection[str] = KEPT
+    ) -> Records:
         """Return a step test of one finger, pushed as fast as can be, that ends at angles, rad."""
-        rigs = self.rigs(make)
-        commands = [step_commands(float(x)) for x in travels(rigs, angle)]
-        return open_loop(rigs, commands, runs=RUNS)
+        rigs = make(self.values)
+        commands = step_commands(travels(rigs, angle, compiled=self.compiled))
+        return open_loop(rigs, commands, runs=RUNS, keep=keep, compiled=self.compiled)
 
     @cached_property
     def first_step(self) -> Records:
@@ -93,11 +97,14 @@ class Laboratory:
 
     def push(self, area: float, lead: float, syringe: float, speed: float) -> Push:
         """Push at one speed, rad/s, from 60 mL of air in the syringe of a pump, m^2, m, m^3."""
-        pump = {"area": area, "lead": lead, "syringe_volume": syringe}
-        rigs = [replace(rig, pump=replace(rig.pump, **pump)) for rig in self.rigs(making.design_1)]
-        flow = area * rigs[0].pump.advance * speed
+        rigs = making.design_1(self.values)
+        pump = replace(rigs.pump, area=area, lead=lead, syringe_volume=syringe)
+        flow = area * pump.advance * speed
         commands = np.full(round((STROKE / flow + 1.0) / PERIOD), speed)
-        made = open_loop(rigs, [commands] * self.count, plunger=(syringe - STROKE) / area)
+        made = open_loop(
+            replace(rigs, pump=pump), commands, plunger=(syringe - STROKE) / area,
+            keep=("pressure", "true_pressure", "plunger"), compiled=self.compiled,
+        )  # fmt: skip
         over = (made.true_pressure[:, 0] >= LARGEST) | (made.plunger[:, 0] >= syringe / area)
         until = np.where(over.any(axis=1), np.argmax(over, axis=1) + 1, commands.size)
         flows = np.full(self.count, flow)
@@ -117,62 +124,62 @@ class Laboratory:
     @cached_property
     def known(self) -> Flags:
         """Which laboratories have a model of finger and pump to design a controller on."""
-        positive = (*vars(self.finger).values(), self.pump_gain)
-        return np.asarray(np.all([np.isfinite(x) & (x > 0) for x in positive], axis=0))
+        gain = self.pump_gain
+        return np.asarray(self.finger.usable & np.isfinite(gain) & (gain > 0))
 
-    def gripper_steps(
-        self, speed: Floats, runs: int, *, rest: float | None = None
-    ) -> tuple[Records, Floats]:
-        """Push the gripper's fingers in open loop, and return how many samples count on each rig.
+    def pushed(self, speed: Floats) -> tuple[Floats, Which]:
+        """Return the commands that push the gripper's fingers at speeds, and how many they are.
 
         Args:
             speed: Of the motor, rad/s, shape (rigs,).
-            runs: Repeats on each rig.
-            rest: s, after the push; None for a test of 6 s.
+
+        Returns:
+            tuple: rad/s, shape (rigs, periods), then rest; and shape (rigs,).
         """
-        rigs = self.rigs(making.gripper)
-        travel = self["choice.gripper_travel"] * MM
-        commands = [
-            push_commands(float(x), rig.pump, float(v))
-            for rig, x, v in zip(rigs, travel, speed, strict=True)
-        ]
-        ends = np.array([GRIPPER_PERIOD * own.size + (rest or 0.0) for own in commands])
-        ends = ends if rest else np.full(self.count, OPEN_LOOP_DURATION)
-        controllers = [partial(CommandSequence, own) for own in commands]
-        made = closed_loop(rigs, controllers, float(ends.max()), runs=runs, period=GRIPPER_PERIOD)
-        return made, np.rint(ends / GRIPPER_PERIOD).astype(int) + 1
+        pump = making.gripper(self.values).pump
+        commands = push_commands(self["choice.gripper_travel"] * MM, pump, speed)
+        return commands, np.count_nonzero(commands, axis=1)
+
+    def gripper_steps(
+        self,
+        commands: Floats,
+        duration: float,
+        runs: int,
+        which: Which | slice = slice(None),
+        *,
+        keep: Collection[str] = ("angle",),
+    ) -> Records:
+        """Send commands, rad/s, to the fingers of some grippers, shape (rigs, periods)."""
+        rigs = take(making.gripper(self.values), which)
+        return closed_loop(
+            rigs, command_law(commands, len(rigs.fingers)), duration, runs=runs,
+            period=GRIPPER_PERIOD, keep=keep, compiled=self.compiled,
+        )  # fmt: skip
+
+    @cached_property
+    def gripper_commands(self) -> Floats:
+        """Those of the steps at high speed, rad/s, over all of the test, shape (rigs, periods)."""
+        commands, _ = self.pushed(self["choice.gripper_speed"] * REV)
+        rest = round(OPEN_LOOP_DURATION / GRIPPER_PERIOD) - commands.shape[1]
+        return np.pad(commands, ((0, 0), (0, rest)))
 
     @cached_property
     def gripper_open(self) -> Records:
         """Seven steps of the gripper in open loop at high speed."""
-        return self.gripper_steps(self["choice.gripper_speed"] * REV, RUNS)[0]
+        return self.gripper_steps(self.gripper_commands, OPEN_LOOP_DURATION, RUNS)
 
-    def identified_fingers(self, angles: Floats) -> SecondOrders:
-        """Identify fingers from the angle of the motor, rad, to theirs, rad.
+    def identified_fingers(self, angles: Floats, start: SecondOrders | None = None) -> SecondOrders:
+        """Identify fingers from the angle of the motor, rad, to theirs, rad; shape (rigs, ...).
 
         Args:
             angles: Shape (rigs, ..., N), of `gripper_open`.
+            start: Where to begin, of a shape that broadcasts to (rigs, ...).
         """
-        test = self.gripper_open
-        turned = GRIPPER_PERIOD * np.cumsum(test.command, axis=1)
-        turned = turned.reshape(len(turned), *[1] * (angles.ndim - 2), -1)
-        flat = (np.broadcast_to(turned, angles.shape), angles)
-        return identify_second_order(test.time, *(x.reshape(-1, x.shape[-1]) for x in flat))
+        turned = GRIPPER_PERIOD * np.cumsum(self.gripper_commands, axis=1)
+        turned = np.pad(turned, ((0, 0), (1, 0))).reshape(len(turned), *[1] * (angles.ndim - 2), -1)
+        return identify_second_order(self.gripper_open.time, turned, angles, start=start)
 
     @cached_property
-    def grippers(self) -> list[Gripper | None]:
-        """P(s) of each gripper, by the mean of the runs in open loop, input in rad/s.
-
-        None where the runs identify none.
-        """
-        found = self.identified_fingers(self.gripper_open.angle.mean(axis=1))
-        w, z, k = (x.reshape(self.count, -1).tolist() for x in vars(found).values())
-        return [_gripper(*rows) for rows in zip(w, z, k, strict=True)]
-
-
-def _gripper(w: list[float], z: list[float], k: list[float]) -> Gripper | None:
-    """Return P(s) of natural frequencies, damping ratios and gains, if all are above zero."""
-    if not all(x > 0 for x in (*w, *z, *k)):
-        return None
-    elements = zip(w, z, k, strict=True)
-    return Gripper(tuple(FingerDynamics(2 * d * f, f**2, gain * f**2) for f, d, gain in elements))
+    def gripper_fingers(self) -> SecondOrders:
+        """By the mean of the runs in open loop, input in rad, shape (rigs, fingers)."""
+        return self.identified_fingers(self.gripper_open.angle.mean(axis=1))

@@ -14,7 +14,7 @@ from softgrip.simulator.chance import SEED, streams
 from softgrip.simulator.force_layer import ForceLayer
 from softgrip.simulator.force_tests import put_down, weight_forces
 from softgrip.simulator.pad import convert, make_pad, press, to_volts, voltages
-from softgrip.simulator.pad_calibration_table import ceiling_force, least_force
+from softgrip.simulator.pad_calibration_table import NOISES
 from softgrip.simulator.pad_hand import FULL
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_tests import BETWEEN, PAD_SEED, PAD_TESTS, PadTest, draw_contacts
@@ -22,10 +22,11 @@ from softgrip.tactile.contact_kind import bagged_neighbours, classifiers, neares
 from softgrip.tactile.contact_pose import place_errors
 from softgrip.tactile.contacts import ELEMENTS, Contacts
 from softgrip.tactile.element import Element
+from softgrip.tactile.element_sensitivity import AT_REST, CEILING
 from softgrip.tactile.force import table_2_2
 from softgrip.tactile.friction import lift_force, printed_grasps
 from softgrip.tactile.kind_evaluation import accuracy, right_on_new, split_score
-from softgrip.tactile.nadaraya_watson import NadarayaWatson, best_bandwidth
+from softgrip.tactile.nadaraya_watson import FINEST, STEPS
 from softgrip.twin.laboratory import Laboratory
 from softgrip.twin.rigs import Row
 from softgrip.twin.space import rows
@@ -98,10 +99,16 @@ def _columns(lab: Laboratory, measure: Callable[[Row], dict[str, float]]) -> Mea
 
 
 def elements(lab: Laboratory) -> Measures:
-    """Return the forces at which a pyramid begins to feel, and reaches its ceiling, N."""
-    return _columns(
-        lab, lambda row: {"least": least_force(pad_of(row)), "ceiling": ceiling_force(pad_of(row))}
-    )
+    """Return the forces at which a pyramid begins to feel, and reaches its ceiling, N.
+
+    `simulator.pad_calibration_table` in closed form: the resistance grows as a thinner film's does.
+    """
+    pad = PadParameters()
+    area = pad.element.base_area * lab["pad.cut"]
+    step = np.maximum(lab["pad.noise"], pad.supply / pad.levels)
+    ohms = NOISES * step * pad.gain_resistor / pad.reference
+    stiff = lab["pad.young_modulus"] * area
+    return {"least": stiff * ohms / (AT_REST + ohms), "ceiling": stiff * (1 - AT_REST / CEILING)}
 
 
 def lifts(lab: Laboratory) -> Measures:
@@ -110,11 +117,8 @@ def lifts(lab: Laboratory) -> Measures:
     The controller brings the measured force to the desired one, so that these are printed ones
     times the friction.
     """
-    friction = lab["choice.friction"]
-    return {
-        name: np.array([lift_force(float(one.contact), float(f)) for f in friction])
-        for name, one in printed_grasps().items()
-    }
+    per_friction = {name: lift_force(float(g.contact), 1.0) for name, g in printed_grasps().items()}
+    return {name: lab["choice.friction"] * one for name, one in per_friction.items()}
 
 
 def weights(lab: Laboratory) -> Measures:
@@ -122,22 +126,78 @@ def weights(lab: Laboratory) -> Measures:
 
     And the mean of the deviations, N. The regressor of Section 2.3 is fitted to the 69 points.
     """
-    return _columns(lab, lambda row: _weighed(layer_of(row)))
-
-
-def _weighed(layer: ForceLayer) -> dict[str, float]:
+    column = {name: values[:, None] for name, values in lab.values.items()}
+    layer = layer_of(column)
     known = put_down(weight_forces(), seed=SEED, run=0, layer=layer)
-    points = known.voltage[:, None]
-    width = best_bandwidth(points, known.force, groups=known.force)
-    model = NadarayaWatson(width).fit(points, known.force)
+    width = best_bandwidths(known.voltage, known.force)
     objects = table_2_2()
     forces = np.repeat([weighed.true for weighed in objects.values()], TIMES)
     made = put_down(forces, seed=SEED, run=2, layer=layer, seating=layer.object_seating)
-    found = model.predict(made.voltage[:, None]).reshape(-1, TIMES) / GRAM_FORCE
-    deviations = found.std(axis=1, ddof=1)
-    means = dict(zip(objects, found.mean(axis=1).tolist(), strict=True))
-    own = dict(zip((f"deviation-{name}" for name in objects), deviations.tolist(), strict=True))
-    return {**means, **own, "deviation": float(deviations.mean()) * GRAM_FORCE}
+    far = (made.voltage[..., None] - known.voltage[:, None]) ** 2
+    found = average(far, width, known.force).reshape(lab.count, -1, TIMES) / GRAM_FORCE
+    mean, deviation = found.mean(axis=2).T, found.std(axis=2, ddof=1).T
+    return {
+        **dict(zip(objects, mean, strict=True)),
+        **dict(zip((f"deviation-{name}" for name in objects), deviation, strict=True)),
+        "deviation": deviation.mean(axis=0) * GRAM_FORCE,
+    }
+
+
+def average(squares: Floats, bandwidth: Floats, targets: Floats) -> Floats:
+    """Return the averages of Eq. (2.6), shape (rigs, queries).
+
+    Args:
+        squares: Of distances, shape (rigs, queries, points).
+        bandwidth: Of each rig, same unit, shape (rigs,).
+        targets: Shape (points,).
+    """
+    weights = _weights(squares, bandwidth)
+    return np.asarray(weights @ targets / weights.sum(axis=-1))
+
+
+def _weights(squares: Floats, bandwidth: Floats) -> Floats:
+    # By that of the nearest point, as `tactile.kernel_average.gaussian`.
+    beyond = squares - squares.min(axis=-1, keepdims=True)
+    return np.asarray(np.exp(beyond * (-0.5 / bandwidth[:, None, None] ** 2)))
+
+
+RIGS = 8
+"""Whose weights the processor's cache holds at a time."""
+
+
+def best_bandwidths(points: Floats, targets: Floats) -> Floats:
+    """Return what `tactile.nadaraya_watson.best_bandwidth` chooses for each rig, shape (rigs,).
+
+    A point's group are those of its target. Bandwidths are in equal ratios, so that the weights of
+    one are the tenth powers of those of another, half a decade above.
+
+    Args:
+        points: Of one feature, shape (rigs, points).
+        targets: Shape (points,).
+    """
+    found = []
+    others = np.where(targets[:, None] == targets, np.inf, 0.0)
+    for own in np.array_split(points, range(RIGS, len(points), RIGS)):
+        tried = np.ptp(own, axis=1) * np.geomspace(FINEST, 1, STEPS)[:, None]
+        squares = (own[:, :, None] - own[:, None]) ** 2 + others
+        errors = np.empty(tried.shape)
+        for first in range(HALF_DECADE):
+            for k in range(STEPS - 1 - first, -1, -HALF_DECADE):
+                if k == STEPS - 1 - first:
+                    weights = _weights(squares, tried[k])
+                else:
+                    half = weights * weights
+                    half *= half
+                    half *= weights
+                    weights = half * half
+                off = weights @ targets / weights.sum(axis=-1) - targets
+                errors[k] = np.einsum("rp,rp->r", off, off)
+        found.append(tried[np.argmin(errors, axis=0), np.arange(len(own))])
+    return np.concatenate(found)
+
+
+HALF_DECADE = round((STEPS - 1) / np.log10(1 / FINEST) / 2)
+"""Bandwidths in it: 10."""
 
 
 def kinds(lab: Laboratory) -> Measures:

@@ -3,14 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Flags, Floats
 from softgrip.logs.pushes import HIGH
 from softgrip.pump.elastance import NoiseLevels
-from softgrip.twin.least_squares import Which, fit
-
-Flags = NDArray[np.bool_]
+from softgrip.twin.least_squares import Which, differences, fit
 
 
 @dataclass(frozen=True)
@@ -85,9 +82,8 @@ def modified_pressure(push: Push, capacity: Floats) -> Floats:
         part = share[which]
         return np.asarray(np.where(small, part, np.log1p(safe * part) / safe))
 
-    found = fit(
-        lambda x, which: model(x, which) - wanted[which], np.full((len(last), 1), np.log(0.499))
-    )
+    squares = differences(lambda x, which: model(x, which) - wanted[which])
+    found = fit(squares, np.full((len(last), 1), np.log(0.499)))
     return np.asarray(largest * model(found, np.arange(len(last))))
 
 

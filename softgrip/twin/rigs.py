@@ -1,4 +1,4 @@
-"""The rigs that a set of values describes: three designs, four sections, and the gripper.
+"""The rigs that values describe, one or many: three designs, four sections, and the gripper.
 
 Designs bear Chapter 3's names. What is not named here is the same in all of them.
 """
@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from softgrip.actuator.printed import section, table_3_2
+from softgrip.arrays import Number
 from softgrip.simulator.calibration import FULL_PRESSURE
 from softgrip.simulator.gripper_parameters import SYRINGE
 from softgrip.simulator.parameters import (
@@ -20,15 +21,15 @@ from softgrip.simulator.parameters import (
 from softgrip.simulator.scaled_section import with_section
 from softgrip.units import DEG
 
-Row = Mapping[str, float]
-"""The values of one rig; see `space.rows`."""
+Row = Mapping[str, Number]
+"""The values of one rig, or those of many: arrays of shape (rigs,), and so are the parameters."""
 Make = Callable[[Row], RigParameters]
 
 
-def _stiffness(row: Row, name: str) -> float:
+def _stiffness(row: Row, name: str) -> Number:
     """Return K, N m/rad^n, of the finger of a group of values: the torque that holds 1 rad."""
     full = row["finger.torque_per_pressure"] * FULL_PRESSURE
-    return float(full / (row[f"{name}.full_angle"] * DEG) ** row["rubber.power"])
+    return full / (row[f"{name}.full_angle"] * DEG) ** row["rubber.power"]
 
 
 def _finger(row: Row, name: str) -> FingerParameters:

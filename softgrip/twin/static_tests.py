@@ -4,7 +4,7 @@ import numpy as np
 
 from softgrip.twin import rigs
 from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.statics import of_fingers, settled_angle
+from softgrip.twin.statics import settled_angle
 from softgrip.twin.step_tests import Measures
 from softgrip.units import DEG, MPa
 
@@ -18,9 +18,8 @@ def statics(lab: Laboratory) -> Measures:
     """Return torque held straight at 0.25 MPa, N m, and angle, deg, and the sum at 0.15 MPa."""
     found: Measures = {}
     for name, make in DESIGNS.items():
-        fingers = [rig.finger for rig in lab.rigs(make)]
-        pushes = of_fingers(fingers, "torque_per_pressure")
-        angle = settled_angle(fingers, ANGLE_PRESSURE)
+        finger = make(lab.values).finger
+        pushes, angle = finger.torque_per_pressure, settled_angle(finger, ANGLE_PRESSURE)
         found[f"torque-{name}"] = pushes * TORQUE_PRESSURE
         found[f"angle-{name}"] = angle / DEG
         found[f"sum-{name}"] = pushes * ANGLE_PRESSURE / TORQUE_SCALE + angle / ANGLE_SCALE

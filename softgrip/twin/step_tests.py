@@ -16,7 +16,7 @@ from softgrip.twin.identification import (
     second_order_responses,
 )
 from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.least_squares import Which, fit
+from softgrip.twin.least_squares import Which, differences, fit
 from softgrip.units import DEG, MM
 
 Measures = dict[str, Floats]
@@ -31,15 +31,15 @@ FORCE_PER_PRESSURE = TORQUE_PER_PRESSURE / (94 * MM)
 KINDS = ("linear", "ludwick")
 
 
-def _each(test: Records) -> SecondOrders:
-    """Identify each run of a test by itself, without the sensors; shape (rigs, runs)."""
-    shape = test.true_pressure.shape
-    found = identify_second_order(
-        test.time,
-        test.true_pressure.reshape(-1, shape[-1]),
-        test.true_angle[:, :, 0].reshape(-1, shape[-1]),
+TRUE = ("true_pressure", "true_angle")
+
+
+def _each(test: Records, mean: SecondOrders) -> SecondOrders:
+    """Identify each run of a test, of known mean, without the sensors; shape (rigs, runs)."""
+    start = SecondOrders(*(values[:, None] for values in vars(mean).values()))
+    return identify_second_order(
+        test.time, test.true_pressure, test.true_angle[:, :, 0], start=start
     )
-    return SecondOrders(*(values.reshape(shape[:-1]) for values in vars(found).values()))
 
 
 def frequencies(lab: Laboratory) -> Measures:
@@ -47,17 +47,17 @@ def frequencies(lab: Laboratory) -> Measures:
 
     The frequency of the mean of seven runs, and the deviation of those of the single runs.
     """
-    makers = {f"row-{k}": rigs.table_3_2_row(k) for k in (1, 2, 3, 4)}
+    makers: dict[str, rigs.Make] = {f"row-{k}": rigs.table_3_2_row(k) for k in (1, 2, 3, 4)}
     makers |= {"design-2": rigs.design_2, "design-3": rigs.design_3}
     found: Measures = {}
     for name, make in makers.items():
-        test = lab.step_test(make, lab["choice.frequency_step"] * DEG)
+        test = lab.step_test(make, lab["choice.frequency_step"] * DEG, keep=TRUE)
         mean = identify_second_order(
             test.time, test.true_pressure.mean(axis=1), test.true_angle[:, :, 0].mean(axis=1)
         )
         found[name] = mean.natural_frequency
         if not name.startswith("row") or name == "row-1":
-            found[f"deviation-{name}"] = _each(test).natural_frequency.std(axis=1, ddof=1)
+            found[f"deviation-{name}"] = _each(test, mean).natural_frequency.std(axis=1, ddof=1)
     return found
 
 
@@ -65,7 +65,7 @@ def damping(lab: Laboratory) -> Measures:
     """Return the damping ratio of the first step test, and its deviation over the runs."""
     return {
         "mean": lab.finger.damping_ratio,
-        "deviation": _each(lab.first_step).damping_ratio.std(axis=1, ddof=1),
+        "deviation": _each(lab.first_step, lab.finger).damping_ratio.std(axis=1, ddof=1),
     }
 
 
@@ -119,7 +119,7 @@ def linear_range(lab: Laboratory) -> Measures:
         tests: list[Records] = []
         errors = [np.zeros(lab.count)]
         for level in count(1):
-            tests.append(lab.step_test(make, _set_point(lab, LEVEL * level)))
+            tests.append(lab.step_test(make, _set_point(lab, LEVEL * level), keep=TRUE))
             errors.append(least_largest_error(tests) / DEG)
             if level == LEVELS or (errors[-1] > bound).all():
                 break
@@ -155,7 +155,7 @@ def least_largest_error(tests: list[Records]) -> Floats:
 
     everyone, best = np.arange(len(x)), np.full(len(x), np.inf)
     for _ in range(WEIGHINGS):
-        x = fit(residual, x, most=10)
+        x = fit(differences(residual), x, most=10)
         off = residual(x, everyone).reshape(*angle.shape)
         errors = np.sqrt(np.mean(off**2, axis=-1) / weights)
         best = np.minimum(best, errors.max(axis=1))
