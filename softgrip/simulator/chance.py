@@ -64,16 +64,22 @@ class Chance:
         self.damping: Floats = np.exp(spread.damping * own[1::2])
         self.leakage: Floats = np.exp(spread.leakage * drawn[leak])
         self._noise: list[np.random.Generator] = []
+        self._table: Floats = np.empty((0, 0, 0))
         self._block = np.empty((_BLOCK, 1 + fingers, self._single))
         self._used = _BLOCK
 
     def noises(self, runs: slice, out: Floats) -> None:
         """Fill with the noise of the first samples of some runs, shape (runs, samples, sensors)."""
-        drawn: dict[int, Floats] = {}
-        for row, number in zip(out, self._which[runs].tolist(), strict=True):
-            if number not in drawn:
-                drawn[number] = self._stream(number).standard_normal(row.shape)
-            row[:] = drawn[number]
+        numbers = self._which[runs].tolist()
+        if len(self._which) == self._single:
+            for row, number in zip(out, numbers, strict=True):
+                self._stream(number).standard_normal(out=row)
+            return
+        if self._table.shape[1:] != out.shape[1:]:
+            self._table = np.stack(
+                [self._stream(k).standard_normal(out.shape[1:]) for k in range(self._single)]
+            )
+        out[:] = self._table[numbers]
 
     def _stream(self, number: int) -> np.random.Generator:
         """Return the generator, at its start, of the noise of a run, from 0."""

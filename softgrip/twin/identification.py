@@ -106,12 +106,17 @@ def _responses(linear: bool, inputs: Floats, systems: Floats) -> Floats:
 
 
 def _squares(
-    linear: bool, inputs: Floats, outputs: Floats, systems: Callable[[Floats], Floats]
+    linear: bool,
+    inputs: Floats,
+    outputs: Floats,
+    systems: Callable[[Floats], Floats],
+    *,
+    offset: bool = False,
 ) -> tuple[Squares, Callable[[Floats, Which], tuple[Floats, Floats]]]:
     """Return the squares of a fit of systems to records, and the same without derivatives.
 
     Args:
-        linear, inputs, outputs: As of `responses.squares`.
+        linear, inputs, outputs, offset: As of `responses.squares`.
         systems: From parameters, shape (..., fits, P), to systems, shape (..., rows, fits).
 
     Returns:
@@ -126,7 +131,7 @@ def _squares(
         gains, cost = np.empty(fits), np.empty(fits)
         pull, normal = np.empty((fits, slopes)), np.empty((fits, slopes, slopes))
         own = np.ascontiguousarray(systems(x))
-        squares(linear, u, y, which, own, STEP, gains, cost, pull, normal)
+        squares(linear, offset, u, y, which, own, STEP, gains, cost, pull, normal)
         return cost, gains, pull, normal
 
     def whole(x: Floats, which: Which) -> tuple[Floats, Floats, Floats]:
@@ -143,9 +148,14 @@ def _squares(
 
 
 def identify_second_order(
-    time: Floats, signal: Floats, output: Floats, *, start: SecondOrders | None = None
+    time: Floats,
+    signal: Floats,
+    output: Floats,
+    *,
+    start: SecondOrders | None = None,
+    offset: bool = True,
 ) -> SecondOrders:
-    """Fit a second-order system with an offset to each record.
+    """Fit a second-order system to each record.
 
     Args:
         time: Even, s, shape (N,).
@@ -153,6 +163,8 @@ def identify_second_order(
             sample.
         start: Systems near those that are looked for, of a shape that broadcasts to that of the
             records; NaN, or None, where none is known: there a grid is searched for one.
+        offset: Whether the output may have any. Without, this is `fit_ludwick` of power 1, which
+            refuses no frequency.
 
     Returns:
         SecondOrders: NaN where the frequency leaves what the record can tell, as `identify` refuses
@@ -163,9 +175,13 @@ def identify_second_order(
     period, duration = float(time[1] - time[0]), float(time[-1] - time[0])
     u_scale, y_scale = np.abs(u).max(axis=1), np.ptp(y, axis=1)
     u, y = u / u_scale[:, None], y / y_scale[:, None]
-    y -= y.mean(axis=1, keepdims=True)
+    y -= offset * y.mean(axis=1, keepdims=True)
     squares, alone = _squares(
-        True, u, y, lambda x: _second_orders(period, np.exp(x[..., 0]), np.exp(x[..., 1]))
+        True,
+        u,
+        y,
+        lambda x: _second_orders(period, np.exp(x[..., 0]), np.exp(x[..., 1])),
+        offset=offset,
     )
     band = (0.1 / duration, np.pi / period)
     if start is None:
@@ -183,7 +199,7 @@ def identify_second_order(
     x = fit(squares, x)
     w, z = np.exp(x).T
     gain = alone(x, np.arange(len(u)))[1]
-    told = (w > 1.01 * band[0]) & (w < band[1] / 1.01)
+    told = (w > 1.01 * band[0]) & (w < band[1] / 1.01) | (not offset)
     found = (np.where(told, x, np.nan) for x in (w, z, gain * y_scale / u_scale))
     return SecondOrders(*(values.reshape(shape[:-1]) for values in found))
 
@@ -211,6 +227,7 @@ def fit_ludwick(
     end = np.maximum(angle[:, tail].mean(axis=1), LEAST_ANGLE)
     push = np.maximum(pressure[:, tail].mean(axis=1), LEAST_PRESSURE)
     stiffness = push / end**power
+
     frequency, ratio = np.meshgrid(
         np.geomspace(1 / duration, 0.3 / period, 10), START_DAMPING, indexing="ij"
     )

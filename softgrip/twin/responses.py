@@ -120,6 +120,7 @@ def respond(linear: bool, inputs: Floats, systems: Floats, out: Floats) -> None:
 @_compiled
 def squares(
     linear: bool,
+    offset: bool,
     inputs: Floats,
     outputs: Floats,
     which: Any,
@@ -132,11 +133,12 @@ def squares(
 ) -> None:
     """Fill with the sums of squares of responses less outputs, and their derivatives.
 
-    A second-order system is that of unit gain: its response without its mean is multiplied by the
-    gain of least squares, and the outputs have no mean.
+    A second-order system is that of unit gain: its response is multiplied by the gain of least
+    squares.
 
     Args:
         linear: As of `respond`.
+        offset: Whether a second-order response is taken without its mean; the outputs have none.
         inputs, outputs: Shape (records, N).
         which: The record of each fit, shape (fits,).
         systems: Shape (1 + 2 P, rows, fits): each, then with a parameter more, and less, in turn.
@@ -157,7 +159,7 @@ def squares(
         for v in range(len(made)):
             _run(linear, u, systems[v], first, count, made[v])
             if linear:
-                _scale(made[v], y, level[v], gain[v])
+                _scale(offset, made[v], y, level[v], gain[v])
         total[:], along[:], across[:] = 0.0, 0.0, 0.0
         for k in range(size):
             for p in range(P):
@@ -183,13 +185,14 @@ def squares(
 
 
 @_compiled
-def _scale(made: Floats, y: Floats, level: Floats, gain: Floats) -> None:
+def _scale(offset: bool, made: Floats, y: Floats, level: Floats, gain: Floats) -> None:
     """Fill with the mean of a response, and the gain that brings it nearest to an output."""
     power = np.zeros(LANES)
     level[:], gain[:] = 0.0, 0.0
-    for k in range(len(made)):
-        for j in range(LANES):
-            level[j] += made[k, j] / len(made)
+    if offset:
+        for k in range(len(made)):
+            for j in range(LANES):
+                level[j] += made[k, j] / len(made)
     for k in range(len(made)):
         for j in range(LANES):
             off = made[k, j] - level[j]

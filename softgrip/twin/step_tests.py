@@ -28,7 +28,6 @@ DESIGNS = {"design-1": (rigs.design_1, 2.365), "design-2": (rigs.design_3, 1.727
 """Chapter 5's fingers, with the estimated power of Table 5.2."""
 FORCE_PER_PRESSURE = TORQUE_PER_PRESSURE / (94 * MM)
 """N/Pa; it scales mass, damping and stiffness alike, and no response."""
-KINDS = ("linear", "ludwick")
 
 
 TRUE = ("true_pressure", "true_angle")
@@ -84,11 +83,18 @@ def models(lab: Laboratory) -> Measures:
             for at in ANGLES
         ]
         means = [(t.pressure.mean(axis=1), t.angle[:, :, 0].mean(axis=1)) for t in tests]
-        for kind, n in zip(KINDS, (1.0, power), strict=True):
-            model = fit_ludwick(tests[0].time, *means[0], n, FORCE_PER_PRESSURE)
-            for at, test, (pressure, angle) in zip(ANGLES, tests, means, strict=True):
-                made = ludwick_responses(model, test.time, pressure, FORCE_PER_PRESSURE)
-                error = np.sqrt(np.mean((made - angle) ** 2, axis=1))
+        time, period = tests[0].time, float(tests[0].time[1] - tests[0].time[0])
+        line = identify_second_order(time, *means[0], offset=False)
+        bent = fit_ludwick(time, *means[0], power, FORCE_PER_PRESSURE)
+        for at, (pressure, angle) in zip(ANGLES, means, strict=True):
+            frequency, ratio = line.natural_frequency, line.damping_ratio
+            unit = second_order_responses(pressure, period, frequency, ratio)
+            made = {
+                "linear": line.gain[:, None] * unit,
+                "ludwick": ludwick_responses(bent, time, pressure, FORCE_PER_PRESSURE),
+            }
+            for kind, model in made.items():
+                error = np.sqrt(np.mean((model - angle) ** 2, axis=1))
                 found[f"{design}-{at}-{kind}"] = error / DEG
                 if kind == "ludwick" and at == 60:
                     fits.append(100 * (1 - error / angle.std(axis=1)))

@@ -10,6 +10,7 @@ from softgrip.dynamics.ludwick_fit import fit_finger
 from softgrip.dynamics.second_order import SecondOrder, response
 from softgrip.errors import InvalidInputError
 from softgrip.twin.identification import (
+    SecondOrders,
     fit_ludwick,
     identify_second_order,
     ludwick_responses,
@@ -71,3 +72,22 @@ def test_a_record_that_tells_no_frequency_gives_none():
     assert np.isnan(found.natural_frequency).all()
     with pytest.raises(InvalidInputError, match="determines"):
         identify(TIME, PRESSURE[0], 1e-4 * PRESSURE[0], initial_input=0.0)
+
+
+def test_without_an_offset_it_is_the_linear_finger():
+    found = identify_second_order(TIME, PRESSURE, ANGLE, offset=False)
+    known = fit_ludwick(TIME, PRESSURE, ANGLE, 1.0, FORCE_PER_PRESSURE)
+    # Exact responses against Runge-Kutta's with a step of a period.
+    frequency = (known.stiffness / known.mass) ** 0.5
+    assert found.natural_frequency == pytest.approx(frequency, rel=1e-4)
+    ratio = known.damping / known.mass / frequency / 2
+    assert found.damping_ratio == pytest.approx(ratio, rel=1e-4)
+    assert found.gain == pytest.approx(FORCE_PER_PRESSURE / known.stiffness, rel=1e-4)
+
+
+def test_a_start_changes_nothing_but_the_way():
+    grid = identify_second_order(TIME, PRESSURE, ANGLE)
+    start = SecondOrders(np.array([2.0, np.nan, 2.0, 2.0]), np.full(4, 0.9), np.ones(4))
+    found = identify_second_order(TIME, PRESSURE, ANGLE, start=start)
+    for name, known in vars(grid).items():
+        assert getattr(found, name) == pytest.approx(known, rel=1e-4), name
