@@ -28,7 +28,7 @@ END, REST = 1.0, 5.0
 """s: the end of a record that counts as rest; and the time after a slow push."""
 WANTED = 45 * DEG
 """Of both fingers, rad."""
-RATIO = 1.25
+RATIO = 1.6
 """Of the lengths, in powers, in which slow pushes are run together."""
 
 

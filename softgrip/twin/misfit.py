@@ -20,11 +20,11 @@ PENALTY = 100.0
 was identified or no pressure reached, or infinite, as a loop that does not settle. A rig that is a
 hundred tolerances off is as wrong as one that does not do the experiment at all; beyond it the size
 says nothing, and a mean of squares would hang on it alone."""
-LOOPS, STEPS = 20, 30
-"""Runs of `Laboratory.loops` and `steps`: of a deviation, 30 runs tell 13 %, where the print's own
+LOOPS, STEPS = 20, 20
+"""Runs of `Laboratory.loops` and `steps`: of a deviation, 20 runs tell 16 %, where the print's own
 seven tell 29 %, and the median of 20 is off by some quarter of what a run is."""
-RIGS = 512
-"""At a time: enough for the compiled lanes, and some hundred megabytes."""
+RIGS = 256
+"""At a time: enough to fill the compiled lanes, in half a gigabyte with all that is imported."""
 
 
 def chosen(experiments: Collection[str] = FAST) -> tuple[Target, ...]:
