@@ -1,0 +1,143 @@
+"""How often the intervals of a fitted rig hold the truth, of rigs that a seed hid from it.
+
+``python -m softgrip.rig.fit_coverage`` writes ``data/rig/fit_coverage.csv``. Each rig is drawn from
+the declared ranges, and recorded as a reader's would be, with noise, converter
+and the spread from run to run: a step to 60 deg, and a slow push to the end of the flex sensor.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from softgrip.arrays import Floats
+from softgrip.control.loop import SPEED_LIMIT
+from softgrip.control.pid import PERIOD
+from softgrip.kept import Kept
+from softgrip.rig.record import record
+from softgrip.rig.simulated import SimulatedRig
+from softgrip.simulator.calibration import design_1
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.fit_estimates import Estimate
+from softgrip.simulator.free_parameters import free_parameters, parameter_values, with_values
+from softgrip.simulator.inference import infer
+from softgrip.simulator.laws import settled_torque
+from softgrip.simulator.parameters import RigParameters
+from softgrip.simulator.simulation import Simulation
+from softgrip.simulator.steps import step_commands, travel_to
+from softgrip.simulator.trial import read_trial
+from softgrip.units import DEG
+
+RIGS = 40
+ANGLES = (60 * DEG, 90 * DEG)
+"""At the ends of step and push."""
+SHARES = (0.1, 0.9)
+"""Of the ranges of the logarithms, between which rigs are drawn."""
+PRESSURES = (5e3, 1e5)
+"""Pa, gauge: far above the noise of the pressure sensor, and below what bursts a finger."""
+PUSH, REST = 6.0, 2.0
+"""Of the push, and of the rest after it, s."""
+
+
+@dataclass(frozen=True)
+class Coverage:
+    """How a parameter fared over the rigs.
+
+    Attributes:
+        name: Of the parameter.
+        told: In how many fits it was told.
+        held, told_held: In how many the interval held the truth, of all fits and of those.
+        factor: Median of high over low end of its interval.
+        rigs: Number of fits.
+    """
+
+    name: str
+    told: int
+    held: int
+    told_held: int
+    factor: float
+    rigs: int
+
+
+def hidden_rig(number: int) -> RigParameters:
+    """Return a rig of one finger, drawn from the declared ranges without their outer tenths.
+
+    One that would not bend to the last of `ANGLES` within `PRESSURES` is drawn again: with such a
+    finger nobody would make these logs.
+    """
+    random = np.random.default_rng([SEED, number])
+    space = free_parameters(1)
+    ends = np.log([(one.low, one.high) for one in space])
+    while True:
+        drawn = np.exp(random.uniform(*np.quantile(ends, SHARES, axis=1)))
+        names = (one.name for one in space)
+        rig = with_values(design_1(), dict(zip(names, drawn.tolist(), strict=True)))
+        finger = rig.finger
+        needed = settled_torque(ANGLES[-1], finger) / finger.torque_per_pressure
+        if PRESSURES[0] < needed < PRESSURES[1]:
+            return rig
+
+
+def reader_logs(rig: RigParameters, folder: Path, *, seed: int) -> list[Path]:
+    """Record a step and a push on a rig, each a run of its own, and return the logs' paths."""
+    step, push = (travel_to(rig, angle) for angle in ANGLES)
+    steady = np.full(round(PUSH / PERIOD), push / rig.pump.advance / PUSH)
+    runs: list[tuple[str, Floats, float]] = [
+        ("step", step_commands(step), 6.0), ("push", steady, PUSH + REST),
+    ]  # fmt: skip
+    paths = []
+    for first, (name, commands, duration) in enumerate(runs):
+        with SimulatedRig(Simulation(rig, seed=seed, first=first, period=PERIOD)) as one:
+            one.home()
+            path = folder / f"{name}.csv"
+            record(one, commands, duration, path, limit=SPEED_LIMIT)
+            paths.append(path)
+    return paths
+
+
+def fitted(number: int) -> tuple[dict[str, float], list[Estimate]]:
+    """Return the truth of a hidden rig, and what a fit to its logs says."""
+    rig = hidden_rig(number)
+    with TemporaryDirectory() as folder:
+        trials = [read_trial(path) for path in reader_logs(rig, Path(folder), seed=number)]
+    return parameter_values(rig), [*infer(trials, design_1()).estimates]
+
+
+def coverage(found: Sequence[tuple[dict[str, float], list[Estimate]]]) -> Iterator[Coverage]:
+    """Yield how each parameter fared, from what `fitted` returns of each rig."""
+    for k, one in enumerate(found[0][1]):
+        estimates = [estimates[k] for _, estimates in found]
+        held = [
+            e.low <= truth[one.name] <= e.high
+            for e, (truth, _) in zip(estimates, found, strict=True)
+        ]
+        told = [e.told for e in estimates]
+        yield Coverage(
+            one.name,
+            sum(told),
+            sum(held),
+            sum(h for h, t in zip(held, told, strict=True) if t),
+            float(np.median([e.high / e.low for e in estimates])),
+            len(found),
+        )
+
+
+def study() -> Iterator[Coverage]:
+    """Fit `RIGS` hidden rigs; takes some minutes."""
+    return coverage([fitted(number) for number in range(RIGS)])
+
+
+KEPT = Kept(
+    "rig/fit_coverage.csv",
+    Coverage,
+    study,
+    "python -m softgrip.rig.fit_coverage",
+    notes="Fits of hidden simulated rigs to a step and a push each: in how many the 90 % interval "
+    "of a\nparameter held the truth, and in how many it was told.",
+    number=".3g",
+)
+
+if __name__ == "__main__":
+    KEPT.main()
