@@ -34,7 +34,7 @@ RIGS = 40
 ANGLES = (60 * DEG, 90 * DEG)
 """At the ends of step and push."""
 SHARES = (0.1, 0.9)
-"""Of the ranges of the logarithms, between which rigs are drawn."""
+"""Of the ranges on their scales, between which rigs are drawn."""
 PRESSURES = (5e3, 1e5)
 """Pa, gauge: far above the noise of the pressure sensor, and below what bursts a finger."""
 PUSH, REST = 6.0, 2.0
@@ -69,9 +69,14 @@ def hidden_rig(number: int) -> RigParameters:
     """
     random = np.random.default_rng([SEED, number])
     space = free_parameters(1)
-    ends = np.log([(one.low, one.high) for one in space])
+    low, high = np.array([(one.low, one.high) for one in space]).T
     while True:
-        drawn = np.exp(random.uniform(*np.quantile(ends, SHARES, axis=1)))
+        share = random.uniform(*SHARES, len(space))
+        drawn = np.where(
+            [one.scale == "log" for one in space],
+            np.maximum(low, 1e-30) ** (1 - share) * high**share,
+            low + share * (high - low),
+        )
         names = (one.name for one in space)
         rig = with_values(design_1(), dict(zip(names, drawn.tolist(), strict=True)))
         finger = rig.finger

@@ -59,10 +59,13 @@ def told_together(found: Inferred) -> tuple[Estimate, ...]:
     One that is not told much better than each of its parts is no news and is left out.
     """
     names = [one.name for one in found.problem.space]
-    alone = np.sqrt(np.diag(found.covariance))
+    # Of the logarithms; of what may be nothing it is large enough to be no news.
+    share = np.where(found.problem.logarithmic, 1.0, 1 / np.fmax(found.values, 1e-30))
+    covariance = found.covariance * np.outer(share, share)
+    alone = np.sqrt(np.diag(covariance))
     told: list[tuple[float, Combination]] = []
     for one in candidates(names, found.values):
-        deviation = float(one.slopes @ found.covariance @ one.slopes) ** 0.5
+        deviation = float(one.slopes @ covariance @ one.slopes) ** 0.5
         news = BETTER * deviation < alone[one.slopes != 0].min()
         if news and 2 * DEVIATIONS * deviation < np.log(TOLD_WITHIN):
             told.append((deviation, one))

@@ -7,6 +7,7 @@ so many independent rows as the autocorrelation of its residuals leaves, with th
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import exp, log
 
 import numpy as np
 
@@ -27,7 +28,8 @@ class Estimate:
         name: Of it.
         value: SI.
         low, high: Ends of its interval of `LEVEL`, within the declared range.
-        told: Whether the logs tell it: `is_told`.
+        told: Whether the logs tell it, rather than its range: the ends are less than `TOLD_WITHIN`
+            apart, and less than half the range.
     """
 
     name: str
@@ -37,16 +39,28 @@ class Estimate:
     told: bool
 
 
-def is_told(width: float, parameter: Parameter) -> bool:
-    """Return whether an interval tells a parameter, rather than its range alone.
-
-    Its ends are less than `TOLD_WITHIN` apart, and it is less than half as wide as the range.
+def estimate(parameter: Parameter, value: float, deviation: float) -> Estimate:
+    """Return what is said of a parameter.
 
     Args:
-        width: Of the logarithm.
-        parameter: With its range.
+        parameter: Which.
+        value: SI.
+        deviation: Its standard deviation on its scale.
     """
-    return bool(width < min(np.log(TOLD_WITHIN), np.log(parameter.high / parameter.low) / 2))
+    half = DEVIATIONS * deviation
+    ends = (
+        (value * exp(-half), value * exp(half))
+        if parameter.scale == "log"
+        else (value - half, value + half)
+    )
+    low, high = max(ends[0], parameter.low), min(ends[1], parameter.high)
+    whole = (
+        log(parameter.high / parameter.low)
+        if parameter.scale == "log"
+        else (parameter.high - parameter.low)
+    )
+    told = ends[1] < TOLD_WITHIN * ends[0] and 2 * half < whole / 2
+    return Estimate(parameter.name, min(max(value, low), high), low, high, told)
 
 
 @dataclass(frozen=True)
@@ -56,7 +70,7 @@ class Inferred:
     Attributes:
         problem: With the real noise.
         point: The solution.
-        covariance: Of the logarithms of the free parameters, shape (parameters, parameters).
+        covariance: Of the free parameters on their scales, shape (parameters, parameters).
         misfit: Root mean square of the residuals of each log over the noise from row to row, shape
             (1 + fingers,) each, NaN for a channel that is not believed. 1 if the model is right.
         alike: To how many rows one independent row comes, same shapes; 1 if residuals are white.
@@ -71,7 +85,7 @@ class Inferred:
     @property
     def rig(self) -> RigParameters:
         """The rig, with the noise that the logs have."""
-        found = self.problem.rig(self.problem.logarithms(self.point))
+        found = self.problem.rig(self.values)
         trials = self.problem.trials
         noise = np.sqrt(np.maximum([one.noise**2 - one.rounding**2 for one in trials], 0.0))
         seen = np.array([one.believed.any(axis=1) for one in trials])
@@ -82,17 +96,10 @@ class Inferred:
     @property
     def values(self) -> Floats:
         """The free parameters, SI, shape (parameters,)."""
-        return np.exp(self.problem.logarithms(self.point))
+        return self.problem.values(self.point)
 
     @cached_property
     def estimates(self) -> tuple[Estimate, ...]:
         """What is said of each free parameter."""
-        found = []
-        for one, value, variance in zip(
-            self.problem.space, self.values.tolist(), np.diag(self.covariance).tolist(), strict=True
-        ):
-            spread = float(np.exp(DEVIATIONS * variance**0.5))
-            inside = min(max(value, one.low), one.high)
-            low, high = max(value / spread, one.low), min(value * spread, one.high)
-            found.append(Estimate(one.name, inside, low, high, is_told(2 * np.log(spread), one)))
-        return tuple(found)
+        rows = zip(self.problem.space, self.values, np.sqrt(np.diag(self.covariance)), strict=True)
+        return tuple(estimate(one, float(value), float(width)) for one, value, width in rows)

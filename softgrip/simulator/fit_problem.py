@@ -1,7 +1,7 @@
 """A rig's fit to logs as one least-squares problem: what is sought, what is left over, its slopes.
 
 The logs' own commands are put through the rig, and what its sensors feel is compared with what was
-measured. Sought are the logarithms of the free parameters, and what each log has of its own: its
+measured. Sought are the free parameters on their scales, and what each log has of its own: its
 run (finger and leak differ from run to run by the rig's spread), the pressure at which it began,
 the zeros of its sensors. Each of these has a normal law of its own, so that the answer is finite
 whatever the logs tell: a declared range is the 90 % interval of what is known without logs, and
@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from softgrip.arrays import Floats
 from softgrip.simulator.each_rig import felt
@@ -29,7 +30,7 @@ finger that is not quite straight)."""
 HANGING = 10.0
 """For how long a weight has hung on a finger when its log begins, s."""
 DIFFERENCE = 1e-4
-"""Step of the slopes: of the logarithm of a parameter, and of the start in units of 1e4 Pa."""
+"""Step of the slopes, in standard deviations of a range."""
 
 
 @dataclass(frozen=True)
@@ -55,14 +56,38 @@ class Problem:
         return free_parameters(len(self.base.fingers))
 
     @cached_property
+    def logarithmic(self) -> NDArray[np.bool_]:
+        """Which parameters are sought by their logarithms, shape (parameters,)."""
+        return np.array([one.scale == "log" for one in self.space])
+
+    @cached_property
     def middle(self) -> Floats:
-        """Middles of the ranges of the logarithms, shape (parameters,)."""
-        return np.array([np.log(one.low * one.high) / 2 for one in self.space])
+        """Middles of the ranges on their scales, shape (parameters,)."""
+        low, high = self.on_scale(self._ends)
+        return np.asarray(low + high) / 2
 
     @cached_property
     def deviation(self) -> Floats:
-        """Standard deviations of the logarithms without logs, shape (parameters,)."""
-        return np.array([np.log(one.high / one.low) / 2 / DEVIATIONS for one in self.space])
+        """Standard deviations on their scales that are known without logs, shape (parameters,)."""
+        low, high = self.on_scale(self._ends)
+        return np.asarray(high - low) / 2 / DEVIATIONS
+
+    @cached_property
+    def _ends(self) -> Floats:
+        return np.array([(one.low, one.high) for one in self.space]).T
+
+    def on_scale(self, values: Floats) -> Floats:
+        """Return logarithms of the values where these are sought, shape (..., parameters)."""
+        return np.asarray(np.log(values, out=np.array(values), where=self.logarithmic))
+
+    def values(self, point: Floats) -> Floats:
+        """Return the free parameters at a point, SI, shape (..., parameters)."""
+        scaled = self.middle + self.deviation * point[..., : len(self.space)]
+        return np.asarray(np.exp(scaled, out=scaled.copy(), where=self.logarithmic))
+
+    def slopes_of_values(self, values: Floats) -> Floats:
+        """Return the slopes of values by their places on the scales, shape (parameters,)."""
+        return np.where(self.logarithmic, values, 1.0)
 
     @cached_property
     def own(self) -> Floats:
@@ -70,12 +95,12 @@ class Problem:
         spread, names = self.base.spread, [one.name for one in self.space]
         columns = [
             (name, value)
-            for field_name, value in (("stiffness", spread.stiffness), ("damping", spread.damping))
+            for entry, value in (("stiffness", spread.stiffness), ("damping", spread.damping))
             for name in names
-            if name.endswith(f".{field_name}")
-        ] + [("gas.leakage", spread.leakage)]
-        found = np.zeros((len(names), len(columns)))
-        for k, (name, value) in enumerate(columns):
+            if name.endswith(f".{entry}")
+        ]
+        found = np.zeros((len(names), len(columns) + 1))
+        for k, (name, value) in enumerate([*columns, ("gas.leakage", spread.leakage)]):
             found[names.index(name), k] = value
         return found
 
@@ -89,25 +114,21 @@ class Problem:
         """Length of a point."""
         return len(self.space) + len(self.trials) * self.locals
 
-    def logarithms(self, point: Floats) -> Floats:
-        """Return the logarithms of the free parameters at a point, shape (..., parameters)."""
-        return self.middle + self.deviation * point[..., : len(self.space)]
-
-    def rig(self, logarithms: Floats) -> RigParameters:
+    def rig(self, values: Floats) -> RigParameters:
         """Return the rig with these free parameters."""
-        values = np.exp(logarithms).tolist()
-        return with_values(self.base, {p.name: v for p, v in zip(self.space, values, strict=True)})
+        names = (one.name for one in self.space)
+        return with_values(self.base, dict(zip(names, values.tolist(), strict=True)))
 
     def split(self, point: Floats, trial: int) -> tuple[Floats, float, Floats]:
-        """Return what a log's run has: logarithms of its parameters, its start, its zeros.
+        """Return what a log's run has: its factors of the values, its start, its zeros.
 
-        The start in Pa; the zeros in Pa and rad, shape (1 + fingers,).
+        Factors of shape (parameters,), the start in Pa, the zeros in Pa and rad, (1 + fingers,).
         """
         first = len(self.space) + trial * self.locals
         runs = self.own.shape[1]
         local = point[first : first + self.locals]
-        logarithms = self.logarithms(point) + self.own @ local[:runs]
-        return logarithms, START * float(local[runs]), self.zeros * local[runs + 1 :]
+        factors = np.exp(self.own @ local[:runs])
+        return factors, START * float(local[runs]), self.zeros * local[runs + 1 :]
 
     @cached_property
     def zeros(self) -> Floats:
@@ -138,31 +159,36 @@ class Problem:
         By the free parameters, then by what is the log's own.
         """
         trial, noise = self.trials[k], self.noise[k]
-        logarithms, start, zeros = self.split(point, k)
-        count = len(logarithms)
-        moved = DIFFERENCE * np.eye(count + 2, count + 1)  # the last rig is not moved
-        found = self.predict(trial, logarithms + moved[:, :count], start + 1e4 * moved[:, count])
+        factors, start, zeros = self.split(point, k)
+        values = self.values(point)
+        run, count = values * factors, len(values)
+        # Each rig but the last is moved in one of the values or in its start.
+        steps = np.append(DIFFERENCE * self.deviation * self.slopes_of_values(run), 1.0)
+        moved = np.diag(steps)[:, : count + 1]
+        moved = np.vstack([moved, np.zeros(count + 1)])
+        found = self.predict(trial, run + moved[:, :count], start + moved[:, count])
         residuals = (found[..., -1] + zeros[:, None] - trial.measured) / noise[:, None]
-        slopes = (found[..., :-1] - found[..., -1:]) / DIFFERENCE / noise[:, None, None]
-        free, by_start = slopes[..., :count], slopes[..., count:] * (START / 1e4)
+        slopes = (found[..., :-1] - found[..., -1:]) / steps / noise[:, None, None]
+        by_run, by_start = slopes[..., :count], slopes[..., count:] * START
+        free = by_run * (factors * self.slopes_of_values(values) * self.deviation)
         by_zero = np.diag(self.zeros / noise)[:, None]
         by_zero = np.broadcast_to(by_zero, (*trial.measured.shape, len(noise)))
-        columns = (free * self.deviation, free @ self.own, by_start, by_zero)
+        columns = (free, by_run @ (run[:, None] * self.own), by_start, by_zero)
         believed = trial.believed
         return residuals[believed], np.concatenate(columns, axis=-1)[believed]
 
-    def predict(self, trial: Trial, logarithms: Floats, start: Floats) -> Floats:
+    def predict(self, trial: Trial, values: Floats, start: Floats) -> Floats:
         """Return what the sensors of several rigs feel at the rows of a log.
 
         Args:
             trial: The log.
-            logarithms: Of the free parameters, shape (rigs, parameters).
+            values: The free parameters, SI, shape (rigs, parameters).
             start: Gauge pressure at the start, Pa, shape (rigs,).
 
         Returns:
             ndarray: Pressure and angles, shape (1 + fingers, rows, rigs).
         """
-        rigs = [self.rig(row) for row in logarithms]
+        rigs = [self.rig(row) for row in values]
         # Air that begins at another pressure is as air that begins in another atmosphere, with a
         # torque that makes up for it. Only the leak is a little off.
         gains = np.array([[one.torque_per_pressure for one in rig.fingers] for rig in rigs])

@@ -1,14 +1,13 @@
 """What is free when a simulated rig is fitted to logs: names, ranges, and their place in a rig.
 
 A name says where a parameter stands in `RigParameters`, as ``finger.stiffness``,
-``finger_2.memory[0]`` or ``gas.leakage``; fingers are counted as in the columns of logs. All free
-parameters are above zero, and they are sought by their logarithms.
+``finger_2.memory[0]`` or ``gas.leakage``; fingers are counted as in the columns of logs.
 """
 
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from typing import Any, Literal
 
 from softgrip.errors import InvalidInputError, UnknownNameError
 from softgrip.logs.fingers import column
@@ -25,6 +24,9 @@ from softgrip.units import ML
 _PLACE = re.compile(r"(?P<part>\w+)\.(?P<name>\w+)(\[(?P<entry>\d+)\])?")
 
 
+Scale = Literal["log", "linear"]
+
+
 @dataclass(frozen=True)
 class Parameter:
     """A free parameter.
@@ -32,43 +34,49 @@ class Parameter:
     Attributes:
         name: Its place in a rig.
         low, high: Declared range, SI, within which it is sought.
+        scale: Whether its logarithm or itself is sought: what can be nothing is sought by itself,
+            for to a rig it does as much as it is.
         reason: Why that range.
     """
 
     name: str
     low: float
     high: float
+    scale: Scale
     reason: str
 
     def __post_init__(self) -> None:
-        if not 0 < self.low < self.high < float("inf"):
+        positive = self.low > 0 or (self.scale == "linear" and self.low == 0)
+        if not (positive and self.low < self.high < float("inf")):
             raise InvalidInputError(
-                self.name, expected="0 < low < high, finite", got=(self.low, self.high)
+                self.name,
+                expected="0 < low < high (0 <= low if linear), finite",
+                got=(self.low, self.high),
             )
 
 
 OF_FINGER = (
-    Parameter("stiffness", 1e-3, 0.1, "a decade below and above the fingers of Chapters 3 and 6"),
-    Parameter("fractional_power", 1.0, 3.5, "1 is a linear spring; Tables 5.1 and 5.2 end at 2.5"),
-    Parameter("inertia", 5e-4, 0.02, "the printed frequencies ask for 2.5e-3 to 1.6e-2"),
-    Parameter("damping", 1e-3, 0.1, "0.7 of critical (Section 3.4), and far to both sides"),
-    Parameter("torque_per_pressure", 4e-7, 5e-6, "a third to three times that of Figure 3.9"),
-    Parameter("rest_volume", 8 * ML, 80 * ML, "a third to three times the chamber of Table 3.1"),
-    Parameter("ballooning", 1e-12, 4e-11, "0.15 MPa grows a held finger by 0.15 to 6 mL"),
-    Parameter("memory[0]", 0.01, 0.5, "from what nobody sees to half of the settled torque"),
-    Parameter("memory[1]", 0.01, 0.5, "as the fast one"),
-    Parameter("memory_time[0]", 0.1, 2.0, "the fast branch: shorter than a step test"),
-    Parameter("memory_time[1]", 2.0, 60.0, "the slow branch: no longer than what is recorded"),
-    Parameter("friction", 1e-5, 1e-3, "from nothing to what would hold a finger at 25 deg"),
+    Parameter("stiffness", 1e-3, 0.1, "log", "a decade about the fingers of Chapters 3 and 6"),
+    Parameter("fractional_power", 1.0, 3.5, "linear", "1 is a linear spring; Table 5.1 has 2.5"),
+    Parameter("inertia", 5e-4, 0.02, "log", "the printed frequencies ask for 2.5e-3 to 1.6e-2"),
+    Parameter("damping", 1e-3, 0.1, "log", "0.7 of critical (Section 3.4), far to both sides"),
+    Parameter("torque_per_pressure", 4e-7, 5e-6, "log", "a third to three times Figure 3.9"),
+    Parameter("rest_volume", 8 * ML, 80 * ML, "linear", "a third to three times Table 3.1"),
+    Parameter("ballooning", 0.0, 3e-11, "linear", "0.15 MPa grows a held finger by 4.5 mL at most"),
+    Parameter("memory[0]", 0.0, 0.4, "linear", "from nothing to 0.4 of the settled torque"),
+    Parameter("memory[1]", 0.0, 0.4, "linear", "as the fast one"),
+    Parameter("memory_time[0]", 0.1, 2.0, "log", "the fast branch: within a step test"),
+    Parameter("memory_time[1]", 2.0, 60.0, "log", "the slow branch: within what is recorded"),
+    Parameter("friction", 0.0, 1e-3, "linear", "to what would hold a finger at 25 deg"),
 )
 """Of each finger; the names are those of its fields."""
 
 OF_RIG = (
-    Parameter("gas.dead_volume", 0.5 * ML, 10 * ML, "0.1 to 2 m of tube of 2.5 mm bore"),
-    Parameter("gas.leakage", 3e-14, 1e-11, "0.01 % to 3 % of the air a second at 0.15 MPa"),
+    Parameter("gas.dead_volume", 0.0, 10 * ML, "linear", "2 m of tube of 2.5 mm bore at most"),
+    Parameter("gas.leakage", 0.0, 1e-11, "linear", "3 % of the air a second at 0.15 MPa at most"),
     # Shorter lags than half a period show nowhere in a log, and ask for short steps.
-    Parameter("sensors.pressure_lag", 0.01, 0.2, "a transducer behind a tube"),
-    Parameter("sensors.angle_lag", 0.01, 0.2, "a flex sensor within rubber"),
+    Parameter("sensors.pressure_lag", 0.01, 0.2, "linear", "a transducer behind a tube"),
+    Parameter("sensors.angle_lag", 0.01, 0.2, "linear", "a flex sensor within rubber"),
 )
 
 UNITS: dict[type[object], dict[str, str]] = {

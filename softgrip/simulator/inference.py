@@ -104,12 +104,12 @@ def _search(problem: Problem, seek: Callable[..., Floats]) -> Floats:
     drawn = np.zeros((DRAWS, problem.size))
     drawn[1:, :count] = np.random.default_rng(SEED).uniform(-1, 1, (DRAWS - 1, count))
     given = parameter_values(problem.base)
-    known = np.log([given[one.name] for one in problem.space])
+    known = problem.on_scale(np.array([given[one.name] for one in problem.space]))
     drawn[0, :count] = (known - problem.middle) / problem.deviation
     drawn = np.clip(drawn, -DEVIATIONS, DEVIATIONS)
     costs = np.zeros(DRAWS)
     for trial, noise in zip(problem.trials, problem.noise, strict=True):
-        found = problem.predict(trial, problem.logarithms(drawn), np.zeros(DRAWS))
+        found = problem.predict(trial, problem.values(drawn), np.zeros(DRAWS))
         off = (found - trial.measured[..., None]) / noise[:, None, None]
         costs += np.minimum(np.abs(off[trial.believed]), 1e3).sum(axis=0)
     best: tuple[float, Floats] = (np.inf, drawn[0])

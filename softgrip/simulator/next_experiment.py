@@ -6,13 +6,14 @@ that the logs have, say how much narrower the intervals would become.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from math import ceil
 
 import numpy as np
 
 from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT
-from softgrip.simulator.fit_estimates import Inferred, is_told
-from softgrip.simulator.fit_problem import DEVIATIONS, Problem
+from softgrip.simulator.fit_estimates import Estimate, Inferred, estimate
+from softgrip.simulator.fit_problem import Problem
 from softgrip.simulator.parameters import RigParameters
 
 REST = 2.0
@@ -54,13 +55,14 @@ class Expected:
 
     Attributes:
         candidate: Which.
-        factors: High over low end of each parameter's interval with it, shape (parameters,).
+        estimates: What would be said of each parameter with it, on the fitted rig.
         told: Names of those that would be told, and are not without it.
-        gain: Sum of the logarithms by which the intervals of those that are not told would shrink.
+        gain: Sum of the logarithms of the factors by which the intervals of those
+            that are not told would shrink.
     """
 
     candidate: Candidate
-    factors: Floats
+    estimates: tuple[Estimate, ...]
     told: tuple[str, ...]
     gain: float
 
@@ -74,14 +76,14 @@ def candidates(found: Inferred) -> tuple[Candidate, ...]:
         found: What the logs say.
     """
     trials, rig = found.problem.trials, found.rig
-    advance = trials[0].pump.lead / (2 * np.pi)
+    period, advance = trials[0].period, rig.pump.advance
     deepest = min(max(one.deepest for one in trials), rig.pump.stroke)
     highest = max(float(one.measured[0].max()) for one in trials)
     speed = min(SPEED_LIMIT, rig.pump.speed_limit)
 
     def push(travel: float, seconds: float) -> tuple[float, float]:
         """Return the speed and the time of a push over a way, as long as wanted or as it takes."""
-        time = max(seconds, travel / (speed * advance))
+        time = period * ceil(max(seconds, travel / (speed * advance)) / period)
         return travel / (advance * time), time
 
     slow, quick = push(deepest, 20.0), push(deepest, 0.0)
@@ -113,25 +115,20 @@ def _shut_travel(rig: RigParameters, pressure: float) -> float:
 
 def expected(found: Inferred) -> Iterator[Expected]:
     """Yield what each candidate is expected to bring, best first."""
-    told = [(one, _expect(found, one)) for one in candidates(found)]
-    before = np.sqrt(np.diag(found.covariance))
-    space = found.problem.space
-    known = np.array([is_told(2 * DEVIATIONS * w, p) for w, p in zip(before, space, strict=True)])
-    results = []
-    for candidate, covariance in told:
-        after = np.sqrt(np.diag(covariance))
-        new = tuple(
-            one.name
-            for one, was, width in zip(space, known, after, strict=True)
-            if not was and is_told(2 * DEVIATIONS * width, one)
-        )
-        gain = float(np.log(before / after)[~known].sum())
-        results.append(Expected(candidate, np.exp(2 * DEVIATIONS * after), new, gain))
+    problem, known = found.problem, np.array([one.told for one in found.estimates])
+    before, results = np.diag(found.covariance), []
+    for candidate in candidates(found):
+        after = np.diag(_expect(found, candidate))
+        rows = zip(problem.space, found.values, after**0.5, strict=True)
+        then = [estimate(one, float(value), float(width)) for one, value, width in rows]
+        new = tuple(one.name for one, was in zip(then, known, strict=True) if one.told and not was)
+        gain = float(np.log(before / after)[~known].sum() / 2)
+        results.append(Expected(candidate, tuple(then), new, gain))
     yield from sorted(results, key=lambda one: -one.gain)
 
 
 def _expect(found: Inferred, candidate: Candidate) -> Floats:
-    """Return the covariance of the logarithms with the candidate's log, on the fitted rig."""
+    """Return the covariance with the candidate's log, on the fitted rig."""
     problem, trials = found.problem, found.problem.trials
     commands = candidate.commands(trials[0].period)
     believed = np.ones((trials[0].fingers + 1, len(commands)), dtype=bool)
