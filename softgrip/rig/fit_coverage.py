@@ -6,7 +6,7 @@ and the spread from run to run: a step to 60 deg, and a slow push to the end of 
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -24,9 +24,9 @@ from softgrip.simulator.fit_estimates import Estimate
 from softgrip.simulator.free_parameters import free_parameters, parameter_values, with_values
 from softgrip.simulator.inference import infer
 from softgrip.simulator.laws import settled_torque
-from softgrip.simulator.parameters import RigParameters
+from softgrip.simulator.parameters import RigParameters, Spread
 from softgrip.simulator.simulation import Simulation
-from softgrip.simulator.steps import step_commands, travel_to
+from softgrip.simulator.steps import simulate_step_test, step_commands, travel_to
 from softgrip.simulator.trial import read_trial
 from softgrip.units import DEG
 
@@ -64,8 +64,8 @@ class Coverage:
 def hidden_rig(number: int) -> RigParameters:
     """Return a rig of one finger, drawn from the declared ranges without their outer tenths.
 
-    One that would not bend to the last of `ANGLES` within `PRESSURES` is drawn again: with such a
-    finger nobody would make these logs.
+    One that does not bend to the last of `ANGLES` within `PRESSURES` and the time of a step is
+    drawn again: with such a finger nobody would make these logs.
     """
     random = np.random.default_rng([SEED, number])
     space = free_parameters(1)
@@ -81,8 +81,14 @@ def hidden_rig(number: int) -> RigParameters:
         rig = with_values(design_1(), dict(zip(names, drawn.tolist(), strict=True)))
         finger = rig.finger
         needed = settled_torque(ANGLES[-1], finger) / finger.torque_per_pressure
-        if PRESSURES[0] < needed < PRESSURES[1]:
+        if PRESSURES[0] < needed < PRESSURES[1] and _reaches(rig):
             return rig
+
+
+def _reaches(rig: RigParameters) -> bool:
+    alike = replace(rig, spread=Spread())
+    deepest = simulate_step_test(alike, 0.8 * rig.pump.stroke, runs=1, seed=0)
+    return bool(deepest.angle[-1] > ANGLES[-1])
 
 
 def reader_logs(rig: RigParameters, folder: Path, *, seed: int) -> list[Path]:

@@ -1,6 +1,7 @@
 """A fit to logs in words: what they tell of a rig, what not, and which further log would."""
 
 from collections.abc import Sequence
+from textwrap import fill
 
 import numpy as np
 
@@ -11,6 +12,8 @@ from softgrip.simulator.free_parameters import unit_of
 from softgrip.simulator.next_experiment import Expected, expected
 from softgrip.simulator.trial import Trial
 
+WIDTH = 90
+"""Of a line, characters."""
 BAD_MISFIT = 1.3
 """Residuals over the noise from row to row, above which the model does not follow a log."""
 
@@ -57,7 +60,15 @@ def next_words(found: Sequence[Expected], period: float) -> list[str]:
     lines = ["what a further log would bring, best first:"]
     for one in found:
         new = ", ".join(one.told) or "nothing new, but narrower intervals"
-        lines.append(f"  {one.candidate.words}: {new}")
+        lines.append(
+            fill(
+                f"{one.candidate.words}: {new}",
+                WIDTH,
+                initial_indent="  ",
+                subsequent_indent="    ",
+                break_on_hyphens=False,
+            )
+        )
     best = found[0].candidate
     speeds = ", ".join(f"{speed:.5g}" for speed in best.speeds)
     periods = ", ".join(map(str, best.periods(period)))
