@@ -11,7 +11,7 @@ from softgrip.logs.reader import read_log
 from softgrip.rig.acceptance import Experiment, judge, report
 from softgrip.rig.check import run_check
 from softgrip.rig.connect import connect
-from softgrip.rig.fit import run_fit, show_stage
+from softgrip.rig.fit import add_fit_arguments, run_fit
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -27,24 +27,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     one.add_argument("log")
     one.add_argument("--experiment", choices=get_args(Experiment), required=True)
     one = commands.add_parser("fit", help="fit the simulated rig to your own logs")
-    one.add_argument("logs", nargs="+", help="begun at home, at rest, at atmospheric pressure")
-    one.add_argument("-o", "--output", required=True, help="file of the rig, for simulated:FILE")
-    one.add_argument(
-        "--clamped",
-        action="append",
-        default=[],
-        metavar="LOG",
-        help="with the tube shut at the finger",
-    )
-    one.add_argument(
-        "--weight",
-        action="append",
-        nargs=2,
-        default=[],
-        metavar=("LOG", "N_M"),
-        help="with a known torque on each finger, positive bends it further",
-    )
-    one.add_argument("--syringe", type=float, metavar="ML", help="its volume, if it is another one")
+    add_fit_arguments(one)
     asked = parser.parse_args(arguments)
     try:
         if asked.command == "check":
@@ -56,14 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print("\n".join(map(str, seen)) or "no USB port of a known maker")
             return int(not any(candidate.answered for candidate in seen))
         if asked.command == "fit":
-            weighted = {log: float(torque) for log, torque in asked.weight}
-            print(
-                run_fit(
-                    asked.logs, asked.output, clamped=asked.clamped, weighted=weighted,
-                    syringe_ml=asked.syringe, progress=show_stage,
-                )
-            )  # fmt: skip
-            return 0
+            return run_fit(asked)
         bands = judge(asked.log, asked.experiment)
         for words in read_log(asked.log).repairs:
             print(f"note  {words}")

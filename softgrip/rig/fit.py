@@ -3,6 +3,7 @@
 import hashlib
 import json
 import sys
+from argparse import ArgumentParser, Namespace
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -15,6 +16,7 @@ from softgrip.provenance import Provenance
 from softgrip.rig.fit_report import report
 from softgrip.simulator.calibration import design_1
 from softgrip.simulator.fit_estimates import Inferred
+from softgrip.simulator.free_parameters import free_parameters
 from softgrip.simulator.gripper_parameters import PUMP as GRIPPER_PUMP
 from softgrip.simulator.inference import Progress, infer, silent
 from softgrip.simulator.parameters import PumpParameters, RigParameters
@@ -58,9 +60,8 @@ def fit_rig(
         raise InvalidInputError("logs", expected="one or more", got="none")
     _check_alike(trials)
     base = base_rig(trials[0], syringe)
-    kept = _Kept(
-        part, f"{[(one.digest, one.clamped, one.torque) for one in trials]} {asdict(base)}"
-    )
+    asked = [(one.digest, one.clamped, one.torque) for one in trials]
+    kept = _Kept(part, f"{asked} {asdict(base)} {free_parameters(trials[0].fingers)}")
     stages = kept.read()
 
     def tell(words: str) -> None:
@@ -160,37 +161,56 @@ class _Kept:
             self.path.unlink(missing_ok=True)
 
 
-def show_stage(words: str) -> None:
+def add_fit_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of ``fit`` to a parser."""
+    parser.add_argument("logs", nargs="+", help="begun at home, at rest, at atmospheric pressure")
+    parser.add_argument("-o", "--output", required=True, help="file of the rig, for simulated:FILE")
+    parser.add_argument(
+        "--clamped", action="append", default=[], metavar="LOG",
+        help="a further log, with the tube shut at the finger",
+    )  # fmt: skip
+    parser.add_argument(
+        "--weight", action="append", nargs=2, default=[], metavar=("LOG", "N_M"),
+        help="a further log, with a known torque on each finger, positive bends it further",
+    )  # fmt: skip
+    parser.add_argument("--syringe", type=float, metavar="ML", help="its volume, if it is another")
+
+
+def run_fit(asked: Namespace) -> int:
+    """Fit a rig as the arguments of ``fit`` say, write its file, report, and return an exit code.
+
+    A fit that was interrupted goes on when it is asked for again.
+
+    Raises:
+        SoftgripError: As `fit_rig`.
+    """
+    path = Path(asked.output)
+    part = path.with_name(f"{path.name}.part")
+    try:
+        found = fit_rig(
+            asked.logs,
+            clamped=asked.clamped,
+            weighted={log: _torque(words) for log, words in asked.weight},
+            syringe=None if asked.syringe is None else asked.syringe * ML,
+            part=part,
+            progress=_show_stage,
+        )
+    except KeyboardInterrupt:
+        print(f"interrupted: asked for again, it goes on from {part}", file=sys.stderr)
+        return 130
+    write_rig(fitted(found), path, source="python -m softgrip.rig fit")
+    print(report(found))
+    return 0
+
+
+def _torque(words: str) -> float:
+    try:
+        return float(words)
+    except ValueError:
+        raise InvalidInputError("--weight", expected="LOG and a torque, N m", got=words) from None
+
+
+def _show_stage(words: str) -> None:
     """Write how far a fit is on the standard error stream, over what stood there before."""
     if sys.stderr.isatty():
-        print(f"\r{words:50}", end="", file=sys.stderr, flush=True)
-
-
-def run_fit(
-    logs: Sequence[str],
-    output: str,
-    *,
-    clamped: Sequence[str] = (),
-    weighted: Mapping[str, float] | None = None,
-    syringe_ml: float | None = None,
-    progress: Progress = silent,
-) -> str:
-    """Fit a rig, write its file, and return the report; one that was interrupted goes on.
-
-    Args:
-        logs, clamped, weighted: As of `fit_rig`.
-        output: File to write.
-        syringe_ml: Its volume, mL.
-        progress: Told of each round.
-    """
-    path = Path(output)
-    found = fit_rig(
-        logs,
-        clamped=clamped,
-        weighted=weighted,
-        syringe=None if syringe_ml is None else syringe_ml * ML,
-        part=path.with_name(f"{path.name}.part"),
-        progress=progress,
-    )
-    write_rig(fitted(found), path, source="python -m softgrip.rig fit")
-    return report(found)
+        print(f"\r{words:40}", end="", file=sys.stderr, flush=True)

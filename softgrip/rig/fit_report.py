@@ -60,15 +60,7 @@ def next_words(found: Sequence[Expected], period: float) -> list[str]:
     lines = ["what a further log would bring, best first:"]
     for one in found:
         new = ", ".join(one.told) or "nothing new, but narrower intervals"
-        lines.append(
-            fill(
-                f"{one.candidate.words}: {new}",
-                WIDTH,
-                initial_indent="  ",
-                subsequent_indent="    ",
-                break_on_hyphens=False,
-            )
-        )
+        lines.append(_wrapped(f"{one.candidate.words}: {new}"))
     best = found[0].candidate
     speeds = ", ".join(f"{speed:.5g}" for speed in best.speeds)
     periods = ", ".join(map(str, best.periods(period)))
@@ -76,8 +68,14 @@ def next_words(found: Sequence[Expected], period: float) -> list[str]:
     option = "--clamped " if best.clamped else "--weight " if best.torque else ""
     torque = f" {best.torque:.3g}" if best.torque else ""
     return [
-        *lines, "", "to record the best, from home and at rest:",
-        f"  commands = np.repeat([{speeds}], [{periods}])  # rad/s, for so many periods",
+        *lines,
+        "",
+        "to record the best (speeds in rad/s, for so many periods each), from home and at rest:",
+        _wrapped(f"commands = np.repeat([{speeds}], [{periods}])"),
         f'  record(rig, commands, len(commands) * rig.period, "{log}")',
         f"and fit again with: {option}{log}{torque}",
-    ]  # fmt: skip
+    ]
+
+
+def _wrapped(words: str) -> str:
+    return fill(words, WIDTH, initial_indent="  ", subsequent_indent="    ", break_on_hyphens=False)

@@ -43,6 +43,10 @@ def found(logs):
     return fit_rig(logs)
 
 
+def interrupted(*_args, **_options):
+    raise KeyboardInterrupt
+
+
 @pytest.fixture
 def quick(monkeypatch):
     """Fits that begin at one place only."""
@@ -194,7 +198,15 @@ def test_a_syringe_that_nobody_knows(path):
     assert base_rig(read_trial(FOLDER / "gripper-open-1.csv"), None).pump.syringe_volume == 150 * ML
 
 
-def test_the_command_says_what_is_wrong(tmp_path, capsys):
+def test_the_command_says_what_is_wrong(tmp_path, monkeypatch, capsys):
+    step, rig = str(STEP), str(tmp_path / "rig.csv")
+    assert main(["fit", step, "--weight", step, "heavy", "-o", rig]) == 2
+    assert "--weight: expected LOG and a torque, N m, got 'heavy'" in capsys.readouterr().err
+    assert main(["fit", step, "--syringe", "-1", "-o", rig]) == 2
+    assert "syringe_volume: expected a finite number > 0" in capsys.readouterr().err
+    monkeypatch.setattr("softgrip.rig.fit.infer", interrupted)
+    assert main(["fit", step, "-o", rig]) == 130
+    assert f"it goes on from {rig}.part" in capsys.readouterr().err
     path = tmp_path / "no.csv"
     assert main(["fit", str(path), "-o", str(tmp_path / "rig.csv")]) == 2
     assert str(path) in capsys.readouterr().err
