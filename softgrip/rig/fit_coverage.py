@@ -47,18 +47,19 @@ class Coverage:
 
     Attributes:
         name: Of the parameter.
-        told: In how many fits it was told.
-        held, told_held: In how many the interval held the truth, of all fits and of those.
-        factor: Median of high over low end of its interval.
         rigs: Number of fits.
+        held: In how many its interval held the truth.
+        told: In how many it was told.
+        told_held: In how many of these its interval held the truth.
+        width: Median width of its interval, as a share of the declared range on its scale.
     """
 
     name: str
-    told: int
-    held: int
-    told_held: int
-    factor: float
     rigs: int
+    held: int
+    told: int
+    told_held: int
+    width: float
 
 
 def hidden_rig(number: int) -> RigParameters:
@@ -69,16 +70,10 @@ def hidden_rig(number: int) -> RigParameters:
     """
     random = np.random.default_rng([SEED, number])
     space = free_parameters(1)
-    low, high = np.array([(one.low, one.high) for one in space]).T
     while True:
-        share = random.uniform(*SHARES, len(space))
-        drawn = np.where(
-            [one.scale == "log" for one in space],
-            np.maximum(low, 1e-30) ** (1 - share) * high**share,
-            low + share * (high - low),
-        )
-        names = (one.name for one in space)
-        rig = with_values(design_1(), dict(zip(names, drawn.tolist(), strict=True)))
+        shares = random.uniform(*SHARES, len(space)).tolist()
+        drawn = {one.name: one.at(share) for one, share in zip(space, shares, strict=True)}
+        rig = with_values(design_1(), drawn)
         finger = rig.finger
         needed = settled_torque(ANGLES[-1], finger) / finger.torque_per_pressure
         if PRESSURES[0] < needed < PRESSURES[1] and _reaches(rig):
@@ -108,30 +103,28 @@ def reader_logs(rig: RigParameters, folder: Path, *, seed: int) -> list[Path]:
     return paths
 
 
-def fitted(number: int) -> tuple[dict[str, float], list[Estimate]]:
+def fitted(number: int) -> tuple[dict[str, float], tuple[Estimate, ...]]:
     """Return the truth of a hidden rig, and what a fit to its logs says."""
     rig = hidden_rig(number)
     with TemporaryDirectory() as folder:
         trials = [read_trial(path) for path in reader_logs(rig, Path(folder), seed=number)]
-    return parameter_values(rig), [*infer(trials, design_1()).estimates]
+    return parameter_values(rig), infer(trials, design_1()).estimates
 
 
-def coverage(found: Sequence[tuple[dict[str, float], list[Estimate]]]) -> Iterator[Coverage]:
+def coverage(found: Sequence[tuple[dict[str, float], Sequence[Estimate]]]) -> Iterator[Coverage]:
     """Yield how each parameter fared, from what `fitted` returns of each rig."""
-    for k, one in enumerate(found[0][1]):
+    for k, one in enumerate(free_parameters(1)):
         estimates = [estimates[k] for _, estimates in found]
-        held = [
-            e.low <= truth[one.name] <= e.high
-            for e, (truth, _) in zip(estimates, found, strict=True)
-        ]
+        truths = [truth[one.name] for truth, _ in found]
+        held = [e.low <= truth <= e.high for e, truth in zip(estimates, truths, strict=True)]
         told = [e.told for e in estimates]
         yield Coverage(
             one.name,
-            sum(told),
-            sum(held),
-            sum(h for h, t in zip(held, told, strict=True) if t),
-            float(np.median([e.high / e.low for e in estimates])),
-            len(found),
+            rigs=len(found),
+            held=sum(held),
+            told=sum(told),
+            told_held=sum(h and t for h, t in zip(held, told, strict=True)),
+            width=float(np.median([one.share(e.low, e.high) for e in estimates])),
         )
 
 
@@ -146,7 +139,7 @@ KEPT = Kept(
     study,
     "python -m softgrip.rig.fit_coverage",
     notes="Fits of hidden simulated rigs to a step and a push each: in how many the 90 % interval "
-    "of a\nparameter held the truth, and in how many it was told.",
+    "of a\nparameter held the truth, of all and of those in which it was told.",
     number=".3g",
 )
 

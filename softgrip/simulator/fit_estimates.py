@@ -7,7 +7,7 @@ so many independent rows as the autocorrelation of its residuals leaves, with th
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import exp, log
+from math import exp
 
 import numpy as np
 
@@ -47,19 +47,11 @@ def estimate(parameter: Parameter, value: float, deviation: float) -> Estimate:
         value: SI.
         deviation: Its standard deviation on its scale.
     """
-    half = DEVIATIONS * deviation
-    ends = (
-        (value * exp(-half), value * exp(half))
-        if parameter.scale == "log"
-        else (value - half, value + half)
-    )
+    half, logarithmic = DEVIATIONS * deviation, parameter.scale == "log"
+    factor = exp(half)
+    ends = (value / factor, value * factor) if logarithmic else (value - half, value + half)
+    told = ends[1] < TOLD_WITHIN * ends[0] and parameter.share(*ends) < 0.5
     low, high = max(ends[0], parameter.low), min(ends[1], parameter.high)
-    whole = (
-        log(parameter.high / parameter.low)
-        if parameter.scale == "log"
-        else (parameter.high - parameter.low)
-    )
-    told = ends[1] < TOLD_WITHIN * ends[0] and 2 * half < whole / 2
     return Estimate(parameter.name, min(max(value, low), high), low, high, told)
 
 

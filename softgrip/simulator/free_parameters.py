@@ -7,6 +7,7 @@ A name says where a parameter stands in `RigParameters`, as ``finger.stiffness``
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
+from math import exp, log
 from typing import Any, Literal
 
 from softgrip.errors import InvalidInputError, UnknownNameError
@@ -53,6 +54,22 @@ class Parameter:
                 expected="0 < low < high (0 <= low if linear), finite",
                 got=(self.low, self.high),
             )
+
+    def at(self, share: float) -> float:
+        """Return the value at a share of the range, on its scale.
+
+        >>> Parameter("an.example", 0.0, 100.0, "linear", "").at(0.5)
+        50.0
+        """
+        if self.scale == "log":
+            return self.low * exp(share * log(self.high / self.low))
+        return self.low + share * (self.high - self.low)
+
+    def share(self, low: float, high: float) -> float:
+        """Return how much of the range lies between two values, on its scale."""
+        if self.scale == "log":
+            return log(high / low) / log(self.high / self.low)
+        return (high - low) / (self.high - self.low)
 
 
 OF_FINGER = (
