@@ -18,12 +18,12 @@ from softgrip.gripper.uncertainty import (
 from softgrip.logs.fingers import GripperLogs, each_identified, read_runs
 from softgrip.provenance import data_file
 from softgrip.reads import remembered
+from softgrip.simulator import statics
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
 from softgrip.simulator.gripper_calibration import step_identifies
 from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
 from softgrip.simulator.simulation import Simulation
-from softgrip.twin import statics
 from softgrip.units import DEG
 
 BAND_SHARE = 0.1

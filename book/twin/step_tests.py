@@ -4,19 +4,19 @@ from itertools import count
 
 import numpy as np
 
-from softgrip.arrays import Floats
-from softgrip.simulator.calibration import TORQUE_PER_PRESSURE
-from softgrip.twin import rigs
-from softgrip.twin.experiments import Records
-from softgrip.twin.identification import (
+from book.twin import rigs
+from book.twin.experiments import Records
+from book.twin.identification import (
     SecondOrders,
     fit_ludwick,
     identify_second_order,
     ludwick_responses,
     second_order_responses,
 )
-from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.least_squares import Which, differences, fit
+from book.twin.laboratory import Laboratory
+from book.twin.least_squares import Which, differences, fit
+from softgrip.arrays import Floats
+from softgrip.simulator.calibration import TORQUE_PER_PRESSURE
 from softgrip.units import DEG, MM
 
 Measures = dict[str, Floats]

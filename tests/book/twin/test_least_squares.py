@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from softgrip.twin.least_squares import differences, fit
+from book.twin.least_squares import differences, fit
 
 TIME = np.linspace(0, 3, 40)
 

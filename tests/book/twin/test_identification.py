@@ -4,18 +4,18 @@ import numpy as np
 import pytest
 
 from book.chapter_5.step_models import FORCE_PER_PRESSURE, kept_test
-from softgrip.dynamics.identify import identify
-from softgrip.dynamics.ludwick import LudwickFinger, pressure_response
-from softgrip.dynamics.ludwick_fit import fit_finger
-from softgrip.dynamics.second_order import SecondOrder, response
-from softgrip.errors import InvalidInputError
-from softgrip.twin.identification import (
+from book.twin.identification import (
     SecondOrders,
     fit_ludwick,
     identify_second_order,
     ludwick_responses,
     second_order_responses,
 )
+from softgrip.dynamics.identify import identify
+from softgrip.dynamics.ludwick import LudwickFinger, pressure_response
+from softgrip.dynamics.ludwick_fit import fit_finger
+from softgrip.dynamics.second_order import SecondOrder, response
+from softgrip.errors import InvalidInputError
 
 TESTS = [kept_test(design, angle) for design in ("Design 1", "Design 2") for angle in (60, 90)]
 TIME = TESTS[0].time

@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from book.twin.laboratory import Laboratory
+from book.twin.pressure_models import filtered_pressure, fitted_capacity, modified_pressure
+from book.twin.step_tests import Measures
 from softgrip.logs.pushes import reference_noise
-from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.pressure_models import filtered_pressure, fitted_capacity, modified_pressure
-from softgrip.twin.step_tests import Measures
 from softgrip.units import ML, MM, REV, MPa
 
 SETS = {

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from book.chapter_2.logs import OBJECTS, contacts
+from book.twin.pad_tests import felt
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_tests import PAD_TESTS
-from softgrip.twin.pad_tests import felt
 
 
 def test_contacts_are_those_of_the_log():

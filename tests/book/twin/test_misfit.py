@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
+from book.twin import misfit as module
+from book.twin.__main__ import met
+from book.twin.laboratory import Laboratory
+from book.twin.misfit import LOOPS, PENALTY, STEPS, chosen, deviations, laboratory, misfit
+from book.twin.space import space, values
 from softgrip.errors import InvalidInputError
-from softgrip.twin import misfit as module
-from softgrip.twin.__main__ import met
-from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.misfit import LOOPS, PENALTY, STEPS, chosen, deviations, laboratory, misfit
-from softgrip.twin.space import space, values
 
 SOME = ("statics", "damping", "pushes", "pid", "gripper loops", "weights")
 TODAY = np.array([one.value for one in space().values()])

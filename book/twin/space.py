@@ -1,7 +1,7 @@
 """What of a rig and of its experiments is not printed: parameters with their ranges and reasons.
 
 ``data/calibration/space.csv`` holds them. A set of values says all that the experiments of the twin
-need: `softgrip.twin.rigs` makes the rigs of it. The value that the file names is that of the
+need: `book.twin.rigs` makes the rigs of it. The value that the file names is that of the
 calibrated rig, and of what this book chose where the text leaves a choice.
 """
 

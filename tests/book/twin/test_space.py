@@ -5,15 +5,15 @@ from dataclasses import astuple, fields
 import numpy as np
 import pytest
 
+from book.twin import rigs
+from book.twin import space as module
+from book.twin.pad_tests import layer_of, pad_of
+from book.twin.space import rows, space, values
 from softgrip.errors import DataFileError, InvalidInputError, UnknownNameError
 from softgrip.simulator import calibration
 from softgrip.simulator.force_layer import ForceLayer
 from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
 from softgrip.simulator.pad_parameters import PadParameters
-from softgrip.twin import rigs
-from softgrip.twin import space as module
-from softgrip.twin.pad_tests import layer_of, pad_of
-from softgrip.twin.space import rows, space, values
 from softgrip.units import MM
 
 (TODAY,) = rows(values())

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from book.twin.experiments import KEPT, STEPS, closed_loop, open_loop, steps_for
 from softgrip.control.pid import PID, Gains
 from softgrip.control.rig_controller import Tracking
 from softgrip.simulator.calibration import design_1
@@ -14,7 +15,6 @@ from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.rig_batch import stacked
 from softgrip.simulator.sampled_law import command_law, sampled_law
 from softgrip.simulator.simulation import LARGEST_STEP, Simulation
-from softgrip.twin.experiments import KEPT, STEPS, closed_loop, open_loop, steps_for
 from softgrip.units import DEG
 
 COMMANDS = np.r_[np.full(20, 20.0), np.zeros(60)]

@@ -15,8 +15,9 @@ from softgrip.provenance import data_file, data_rows
 from softgrip.reads import remembered
 
 FILE = "calibration/targets.csv"
-Relation = Literal["=", "<", ">"]
-"""How what is measured should stand to the print; below a print is its size."""
+Relation = Literal["=", "~", "<", ">"]
+"""How what is measured should stand to the print, as of its claim: ``~`` is "about", which the
+tolerance says; below a print is its size."""
 
 
 @dataclass(frozen=True)

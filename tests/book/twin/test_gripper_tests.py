@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
+from book.twin.gripper_tests import internal_model_law
 from softgrip.gripper.internal_model import controller_matrices
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.plant import PRINTED, FingerDynamics, Gripper
 from softgrip.gripper.printed_loop import FILTERS
 from softgrip.gripper.shaping_filter import filter_state_space
 from softgrip.simulator.sampled_law import AXES
-from softgrip.twin.gripper_tests import internal_model_law
 
 OTHER = Gripper((FingerDynamics(7.0, 40.0, 2.0), FingerDynamics(0.5, 1.5, 3.0)))
 

@@ -5,6 +5,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from book.twin import rigs
+from book.twin.experiments import closed_loop
+from book.twin.identification import SecondOrders
+from book.twin.laboratory import Laboratory
+from book.twin.matrix_exponential import matrix_exponential
+from book.twin.step_tests import Measures
 from softgrip.arrays import Floats, Number
 from softgrip.control.differentiator import RobustDifferentiator
 from softgrip.control.loop import SPEED_LIMIT, Controller, run_loop
@@ -19,12 +25,6 @@ from softgrip.control.ziegler_nichols import ReactionCurve, ziegler_nichols
 from softgrip.dynamics.second_order import free_motion
 from softgrip.logs.steps import END, WINDOW, smoothed
 from softgrip.simulator.sampled_law import sampled_law
-from softgrip.twin import rigs
-from softgrip.twin.experiments import closed_loop
-from softgrip.twin.identification import SecondOrders
-from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.matrix_exponential import matrix_exponential
-from softgrip.twin.step_tests import Measures
 from softgrip.units import DEG
 
 DURATION = 20.0

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from softgrip.twin import rigs
-from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.statics import settled_angle
-from softgrip.twin.step_tests import Measures
+from book.twin import rigs
+from book.twin.laboratory import Laboratory
+from book.twin.step_tests import Measures
+from softgrip.simulator.statics import settled_angle
 from softgrip.units import DEG, MPa
 
 DESIGNS = {"design-1": rigs.design_1, "design-2": rigs.design_2, "design-3": rigs.design_3}

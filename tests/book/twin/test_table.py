@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from softgrip.twin.__main__ import Met, met, table
-from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.space import values
-from softgrip.twin.targets import targets
+from book.twin.__main__ import Met, met, table
+from book.twin.laboratory import Laboratory
+from book.twin.space import values
+from book.twin.targets import targets
 
 BY_ID = {one.id: one for one in targets()}
 

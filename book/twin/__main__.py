@@ -1,4 +1,4 @@
-"""The printed targets beside what the calibrated rig gives: ``python -m softgrip.twin targets``."""
+"""The printed targets beside what the calibrated rig gives: ``python -m book.twin targets``."""
 
 import argparse
 from collections.abc import Collection, Sequence
@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.recipes import FAST, SLOW, measured
-from softgrip.twin.space import values
-from softgrip.twin.targets import Target, targets
+from book.twin.laboratory import Laboratory
+from book.twin.recipes import FAST, SLOW, measured
+from book.twin.space import values
+from book.twin.targets import Target, targets
 
 NEAR = 10.0
 """Largest deviation, %, of a target that is counted as met."""
@@ -75,7 +75,7 @@ def table(found: Sequence[Met]) -> str:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Print the targets beside what the calibrated rig gives."""
-    parser = argparse.ArgumentParser(prog="python -m softgrip.twin", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m book.twin", description=__doc__)
     parser.add_argument("command", choices=["targets"])
     parser.add_argument("--fast", action="store_true", help="without the slow experiments")
     chosen = parser.parse_args(arguments)

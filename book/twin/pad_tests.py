@@ -9,6 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from book.twin.laboratory import Laboratory
+from book.twin.rigs import Row
+from book.twin.space import rows
+from book.twin.step_tests import Measures
 from softgrip.arrays import Floats
 from softgrip.simulator.chance import SEED, streams
 from softgrip.simulator.force_layer import ForceLayer
@@ -27,10 +31,6 @@ from softgrip.tactile.force import table_2_2
 from softgrip.tactile.friction import lift_force, printed_grasps
 from softgrip.tactile.kind_evaluation import accuracy, right_on_new, split_score
 from softgrip.tactile.nadaraya_watson import FINEST, STEPS
-from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.rigs import Row
-from softgrip.twin.space import rows
-from softgrip.twin.step_tests import Measures
 from softgrip.units import GRAM_FORCE
 
 SPLITS = 20

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from book.companion.claims import read_claims
+from book.twin import targets as module
+from book.twin.recipes import FAST, SLOW
+from book.twin.space import space
+from book.twin.targets import Target, targets
 from softgrip.errors import DataFileError
-from softgrip.twin import targets as module
-from softgrip.twin.recipes import FAST, SLOW
-from softgrip.twin.space import space
-from softgrip.twin.targets import Target, targets
 
 CLAIMS = {claim.id: claim for claim in read_claims()}
 SECOND_SIDE = {"3.4-linear-up-to", "7.1-linear-range", "5.4-rms-range-min", "5.4-rms-range-max"}
@@ -66,7 +66,7 @@ def test_a_bound_is_missed_on_one_side():
     assert _target(relation=">").off(measured).tolist() == [5, 1, 0]
 
 
-@pytest.mark.parametrize("bad", [{"relation": "~"}, {"tolerance": "0"}, {"id": "2.3-best-k"}])
+@pytest.mark.parametrize("bad", [{"relation": "!"}, {"tolerance": "0"}, {"id": "2.3-best-k"}])
 def test_a_bad_line_is_refused(monkeypatch, bad):
     first, *rest = module.data_rows(module.FILE)
     monkeypatch.setattr(module, "data_rows", lambda _: [first | bad, *rest])

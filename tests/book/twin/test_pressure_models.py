@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 
 from book.chapter_4.identified_model import LOW_PRESSURE, identify_capacity
-from softgrip.logs.pump import pump_of
-from softgrip.logs.pushes import LOW, compare, reference_noise
-from softgrip.logs.reader import read_log
-from softgrip.provenance import data_file
-from softgrip.twin.pressure_models import (
+from book.twin.pressure_models import (
     Push,
     filtered_pressure,
     first_capacity,
     fitted_capacity,
     modified_pressure,
 )
+from softgrip.logs.pump import pump_of
+from softgrip.logs.pushes import LOW, compare, reference_noise
+from softgrip.logs.reader import read_log
+from softgrip.provenance import data_file
 
 NAMES = ("a", "d")
 

@@ -7,13 +7,13 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
+from book.twin.laboratory import Laboratory
+from book.twin.recipes import FAST, measured
+from book.twin.space import space
+from book.twin.targets import Target, targets
 from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
 from softgrip.simulator.parts import in_parts
-from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.recipes import FAST, measured
-from softgrip.twin.space import space
-from softgrip.twin.targets import Target, targets
 
 PENALTY = 100.0
 """Largest deviation, tolerances, and that of what is not told: a quantity that is NaN, as no model

@@ -10,6 +10,12 @@ from functools import cached_property
 
 import numpy as np
 
+from book.twin import rigs as making
+from book.twin.experiments import KEPT, Records, closed_loop, open_loop
+from book.twin.identification import SecondOrders, identify_second_order
+from book.twin.least_squares import Which
+from book.twin.pressure_models import Push, first_capacity
+from book.twin.space import Values
 from softgrip.arrays import Flags, Floats
 from softgrip.control.pid import PERIOD
 from softgrip.gripper.internal_model import PERIOD as GRIPPER_PERIOD
@@ -17,14 +23,8 @@ from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION, push_comm
 from softgrip.simulator.parameters import RigParameters, Spread
 from softgrip.simulator.rig_batch import take
 from softgrip.simulator.sampled_law import command_law
+from softgrip.simulator.statics import travel_for
 from softgrip.simulator.steps import DURATION, step_commands
-from softgrip.twin import rigs as making
-from softgrip.twin.experiments import KEPT, Records, closed_loop, open_loop
-from softgrip.twin.identification import SecondOrders, identify_second_order
-from softgrip.twin.least_squares import Which
-from softgrip.twin.pressure_models import Push, first_capacity
-from softgrip.twin.space import Values
-from softgrip.twin.statics import travel_for
 from softgrip.units import DEG, ML, MM, REV, MPa
 
 RUNS = 7

@@ -2,6 +2,13 @@
 
 import numpy as np
 
+from book.twin import rigs
+from book.twin.experiments import closed_loop
+from book.twin.identification import SecondOrders
+from book.twin.laboratory import Laboratory
+from book.twin.least_squares import Which
+from book.twin.matrix_exponential import matrix_exponential
+from book.twin.step_tests import Measures
 from softgrip.arrays import Flags, Floats
 from softgrip.control.state_feedback import SPEED_DIGITS
 from softgrip.control.step_metrics import final_value, settling_time
@@ -13,14 +20,7 @@ from softgrip.gripper.shaping_filter import filter_state_space
 from softgrip.gripper.uncertainty import excited_band
 from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION
 from softgrip.simulator.sampled_law import SampledLaw
-from softgrip.twin import rigs
-from softgrip.twin.experiments import closed_loop
-from softgrip.twin.identification import SecondOrders
-from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.least_squares import Which
-from softgrip.twin.matrix_exponential import matrix_exponential
-from softgrip.twin.statics import volume_for
-from softgrip.twin.step_tests import Measures
+from softgrip.simulator.statics import volume_for
 from softgrip.units import DEG, ML, REV
 
 SIDES = ("left", "right")

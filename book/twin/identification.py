@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from book.twin.least_squares import STEP, Squares, Which, fit
 from softgrip.arrays import Flags, Floats, Number
 from softgrip.dynamics.identify import START_DAMPING
 from softgrip.dynamics.ludwick import LudwickFinger
 from softgrip.dynamics.second_order import free_motion
-from softgrip.twin.least_squares import STEP, Squares, Which, fit
 
 FREQUENCIES = 12
 """Of the starts of `identify_second_order`, as of `identify`."""
@@ -98,7 +98,7 @@ def ludwick_responses(
 
 
 def _responses(linear: bool, inputs: Floats, systems: Floats) -> Floats:
-    from softgrip.twin.responses import respond
+    from book.twin.responses import respond
 
     out = np.empty(inputs.shape)
     respond(linear, np.ascontiguousarray(inputs), systems, out)
@@ -122,7 +122,7 @@ def _squares(
     Returns:
         tuple: The second function gives the sums of squares, and the gains.
     """
-    from softgrip.twin.responses import squares
+    from book.twin.responses import squares
 
     u, y = np.ascontiguousarray(inputs), np.ascontiguousarray(outputs)
 

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from book.twin.least_squares import Which, differences, fit
 from softgrip.arrays import Flags, Floats
 from softgrip.logs.pushes import HIGH
 from softgrip.pump.elastance import NoiseLevels
-from softgrip.twin.least_squares import Which, differences, fit
 
 
 @dataclass(frozen=True)

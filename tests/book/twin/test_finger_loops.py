@@ -3,13 +3,7 @@
 import numpy as np
 import pytest
 
-from softgrip.control.designs import unit_step
-from softgrip.control.state_space_plant import StateSpacePlant
-from softgrip.control.ziegler_nichols import integrating_reaction_curve, reaction_curve
-from softgrip.dynamics.second_order import SecondOrder, full_state_space, state_space
-from softgrip.logs.staircase import lag
-from softgrip.logs.steps import judge_step
-from softgrip.twin.finger_loops import (
+from book.twin.finger_loops import (
     Models,
     actuator_curve,
     full_curve,
@@ -17,9 +11,15 @@ from softgrip.twin.finger_loops import (
     pid_on_models,
     settled,
 )
-from softgrip.twin.identification import SecondOrders
-from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.space import values
+from book.twin.identification import SecondOrders
+from book.twin.laboratory import Laboratory
+from book.twin.space import values
+from softgrip.control.designs import unit_step
+from softgrip.control.state_space_plant import StateSpacePlant
+from softgrip.control.ziegler_nichols import integrating_reaction_curve, reaction_curve
+from softgrip.dynamics.second_order import SecondOrder, full_state_space, state_space
+from softgrip.logs.staircase import lag
+from softgrip.logs.steps import judge_step
 from softgrip.units import DEG
 
 

@@ -13,12 +13,12 @@ from book.chapter_3 import numbers as chapter_3
 from book.chapter_4 import numbers as chapter_4
 from book.chapter_5 import numbers as chapter_5
 from book.chapter_6 import numbers as chapter_6
+from book.twin import step_tests
+from book.twin.laboratory import Laboratory
+from book.twin.recipes import FAST, measured
+from book.twin.space import values
 from softgrip.errors import UnknownNameError
 from softgrip.simulator.calibration import design_1, small_signal_poles
-from softgrip.twin import step_tests
-from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.recipes import FAST, measured
-from softgrip.twin.space import values
 from softgrip.units import DEG, GRAM_FORCE
 
 LAB = Laboratory(values())

@@ -3,9 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 
-from softgrip.arrays import Floats
-from softgrip.errors import UnknownNameError
-from softgrip.twin import (
+from book.twin import (
     finger_loops,
     gripper_tests,
     pad_tests,
@@ -13,8 +11,10 @@ from softgrip.twin import (
     static_tests,
     step_tests,
 )
-from softgrip.twin.laboratory import Laboratory
-from softgrip.twin.step_tests import Measures
+from book.twin.laboratory import Laboratory
+from book.twin.step_tests import Measures
+from softgrip.arrays import Floats
+from softgrip.errors import UnknownNameError
 
 Recipe = Callable[[Laboratory], Measures]
 FAST: Mapping[str, Recipe] = MappingProxyType(
