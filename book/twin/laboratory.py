@@ -69,7 +69,7 @@ class Laboratory:
         """Return a value of each, shape (rigs,)."""
         return self.values[name]
 
-    @property
+    @cached_property
     def count(self) -> int:
         """Number of laboratories."""
         return len(next(iter(self.values.values())))

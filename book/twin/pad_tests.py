@@ -94,7 +94,8 @@ def felt(test: PadTest, parameters: PadParameters) -> Contacts:
 
 def _columns(lab: Laboratory, measure: Callable[[Row], dict[str, float]]) -> Measures:
     """Measure each pad by itself."""
-    found = [measure(row) for row in rows(lab.values)]
+    own = {name: lab[name] for name in lab.values if name.startswith(("pad.", "layer."))}
+    found = [measure(row) for row in rows(own)]
     return {name: np.array([one[name] for one in found]) for name in found[0]}
 
 
@@ -126,8 +127,7 @@ def weights(lab: Laboratory) -> Measures:
 
     And the mean of the deviations, N. The regressor of Section 2.3 is fitted to the 69 points.
     """
-    column = {name: values[:, None] for name, values in lab.values.items()}
-    layer = layer_of(column)
+    layer = layer_of({name: lab[name][:, None] for name in lab.values if name.startswith("layer.")})
     known = put_down(weight_forces(), seed=SEED, run=0, layer=layer)
     width = best_bandwidths(known.voltage, known.force)
     objects = table_2_2()

@@ -56,6 +56,13 @@ class Parameter:
             return np.asarray(self.low + part * (self.high - self.low))
         return np.asarray(self.low * (self.high / self.low) ** part)
 
+    def share(self, value: ArrayLike) -> Floats:
+        """Return the share of the range at which values lie, the inverse of `at`."""
+        own = np.asarray(value, dtype=np.float64)
+        if self.scale == "linear":
+            return np.asarray((own - self.low) / (self.high - self.low))
+        return np.asarray(np.log(own / self.low) / np.log(self.high / self.low))
+
 
 @remembered
 def space() -> Mapping[str, Parameter]:

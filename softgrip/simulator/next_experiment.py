@@ -109,8 +109,10 @@ def candidates(found: Inferred) -> tuple[Candidate, ...]:
 
 def _shut_travel(rig: RigParameters, pressure: float) -> float:
     """Return the travel, m, that brings syringe and dead volume to a gauge pressure, Pa."""
-    charge = rig.pump.syringe_volume + rig.gas.dead_volume
-    return charge * (1 - rig.gas.atmosphere / (rig.gas.atmosphere + pressure)) / rig.pump.area
+    charge = float(rig.pump.syringe_volume + rig.gas.dead_volume)
+    return float(
+        charge * (1 - rig.gas.atmosphere / (rig.gas.atmosphere + pressure)) / rig.pump.area
+    )
 
 
 def expected(found: Inferred) -> Iterator[Expected]:

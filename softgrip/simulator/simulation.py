@@ -169,6 +169,15 @@ class Simulation:
             raise InvalidInputError("torque", expected="finite numbers, N m", got=torque)
         self.plant.push = values.copy()
 
+    @property
+    def felt(self) -> tuple[Floats, Floats]:
+        """What the sensors feel now, without noise, range or converter: Pa and rad.
+
+        Shapes (runs,) and (fingers, runs).
+        """
+        own = self.plant.fingers(self._state)[SENSED_ANGLE]
+        return self._state[SENSED_PRESSURE].copy(), own.copy()
+
     def measure(self) -> Measurement:
         """Read the sensors now, each time with other noise."""
         return self._sensed(self.time, self._state, self.chance.noise())
@@ -184,10 +193,11 @@ class Simulation:
             command: rad/s, positive into the syringe, a number or shape (runs,); the motor follows
                 within its limits.
         """
-        self._hold(command)
+        self.hold(command)
         return self.measure()
 
-    def _hold(self, command: ArrayLike) -> None:
+    def hold(self, command: ArrayLike) -> None:
+        """Hold a motor speed for one period, as `advance`, and read no sensor."""
         values = np.broadcast_to(np.asarray(command, dtype=np.float64), (self.runs,))
         if not np.isfinite(values).all():
             raise InvalidInputError("command", expected="finite motor speeds, rad/s", got=command)
@@ -234,7 +244,7 @@ class Simulation:
         noise = np.empty((1 + len(self.parameters.fingers), count, self.runs))
         motor_state = np.empty((2, count, self.runs))
         for k, command in enumerate(sequence):
-            self._hold(command)
+            self.hold(command)
             state[:, k], noise[:, k] = self._state, self.chance.noise()
             motor_state[:, k] = self._speed, self._plunger
         # One call for all samples: one for each would double their cost.
