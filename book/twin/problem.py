@@ -66,7 +66,8 @@ class Problem:
         targets: Of `misfit`, in its order.
         observed: What is to be met, in tolerances from the print, shape (targets,): zeros for the
             print itself, other numbers for what a rig of known parameters gives.
-        errors: Standard deviations, in tolerances, shape (targets,).
+        errors: Standard deviations, in tolerances, shape (targets,); infinite for a target that is
+            not looked at, and so is predicted.
     """
 
     targets: tuple[Target, ...]

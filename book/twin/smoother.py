@@ -86,7 +86,9 @@ def _moved(problem: Problem, now: Ensemble, alphas: Floats, number: int, seed: i
     groups, which = np.unique(problem.touched, axis=0, return_inverse=True)
     for k, targets in enumerate(groups):
         # The same noise for all groups: a rig is drawn to one set of perturbed observations.
-        own = np.flatnonzero(targets)
+        own = np.flatnonzero(targets & np.isfinite(problem.errors))
+        if not own.size:
+            continue
         smoother = ESMDA(np.ones(own.size), np.zeros(own.size), alpha=alphas)
         smoother.iteration = number - 1
         smoother.prepare_assimilation(
