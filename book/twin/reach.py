@@ -12,10 +12,10 @@ from types import MappingProxyType
 import cma
 import numpy as np
 
-from book.twin.gripper_tests import PERIOD
 from book.twin.problem import FURTHEST, Problem
 from book.twin.smoother import Ensemble
 from softgrip.arrays import Floats
+from softgrip.gripper.internal_model import PERIOD
 
 GENERATIONS, RIGS = 30, 64
 WIDTH = 1.0
@@ -34,7 +34,7 @@ class Nearest:
     off: float
 
 
-def among(problem: Problem, seen: Sequence[Ensemble]) -> list[Nearest]:
+def among(seen: Sequence[Ensemble]) -> list[Nearest]:
     """Return for each target the nearest of the rigs that were run already."""
     x = np.concatenate([one.x for one in seen])
     off = np.concatenate([one.off for one in seen])
