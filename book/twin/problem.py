@@ -5,18 +5,17 @@ share of the declared range: before any target is looked at all of the range is 
 leaves it.
 """
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 from scipy.special import ndtr, ndtri
 from scipy.stats import qmc
 
-from book.twin.laboratory import Laboratory
-from book.twin.misfit import chosen, deviations, misfit
+from book.twin.misfit import chosen, misfit
 from book.twin.recipes import FAST
-from book.twin.space import Parameter, space, values
+from book.twin.space import Parameter, space
 from book.twin.targets import Target
 from softgrip.arrays import Flags, Floats
 from softgrip.errors import InvalidInputError
@@ -31,31 +30,46 @@ FURTHEST = 5.0
 """Largest size of a variable: beyond it is a three-millionth of a range."""
 
 
-class _Noted(Mapping[str, Floats]):
-    """Values, and the names that were asked for."""
-
-    def __init__(self, values: Mapping[str, Floats]) -> None:
-        self._values, self.names = values, set[str]()
-
-    def __getitem__(self, name: str) -> Floats:
-        self.names.add(name)
-        return self._values[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._values)
-
-    def __len__(self) -> int:
-        return len(self._values)
+POINTS = 8
+"""Rigs about which it is tried what moves what: at one, an experiment may fail and tell nothing."""
 
 
-def asked(experiment: str, wanted: Collection[Target]) -> frozenset[str]:
-    """Return the names of the parameters that an experiment looks at, found by running it."""
-    noted = _Noted(values())
-    lab = Laboratory(noted, loops=1, steps=2)
-    assert lab.count == 1  # which looks at any of them
-    noted.names.clear()
-    deviations(lab, [one for one in wanted if one.experiment == experiment])
-    return frozenset(noted.names)
+def sought() -> tuple[Parameter, ...]:
+    """Return the free parameters of the space."""
+    return tuple(one for one in space().values() if one.status == "free")
+
+
+def values_at(parameters: Collection[Parameter], shares: Floats) -> Floats:
+    """Return all values of rigs, of which some parameters stand at shares of their ranges.
+
+    Args:
+        parameters: Those; the others have the value of the file.
+        shares: Shape (rigs, parameters).
+
+    Returns:
+        Floats: Shape (rigs, all parameters), in the order of `space`.
+    """
+    found = {name: np.full(len(shares), one.value) for name, one in space().items()}
+    found |= {p.name: p.at(share) for p, share in zip(parameters, shares.T, strict=True)}
+    return np.stack(list(found.values()), axis=1)
+
+
+@cache
+def moves(experiments: tuple[str, ...], jobs: int | None = None) -> Flags:
+    """Return which free parameter moves which target, shape (sought, targets): by trying.
+
+    Each is moved by itself, about some rigs that are spread over the space.
+    """
+    free = sought()
+    shares = qmc.Sobol(2 * len(free), rng=1).random(POINTS)
+    about, other = shares[:, : len(free)], shares[:, len(free) :]
+    one = np.eye(len(free), dtype=bool)[None]
+    moved = np.where(one, other[:, None], about[:, None]).reshape(-1, len(free))
+    rows = values_at(free, np.concatenate([about, moved]))
+    off = misfit(rows, experiments=experiments, jobs=jobs)
+    base, found = off[:POINTS], off[POINTS:].reshape(POINTS, len(free), -1)
+    moved_some: Flags = np.any(found != base[:, None], axis=0)
+    return moved_some
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,31 +95,19 @@ class Problem:
 
     @cached_property
     def free(self) -> tuple[Parameter, ...]:
-        """The parameters that are sought: free ones that an experiment looks at."""
-        looked = frozenset().union(*self._looked.values())
-        return tuple(p for p in space().values() if p.status == "free" and p.name in looked)
-
-    @cached_property
-    def _looked(self) -> dict[str, frozenset[str]]:
-        return {name: asked(name, self.targets) for name in self.experiments}
+        """The parameters that are sought: free ones that move a target."""
+        some = moves(self.experiments).any(axis=1).tolist()
+        return tuple(one for one, moved in zip(sought(), some, strict=True) if moved)
 
     @cached_property
     def touched(self) -> Flags:
-        """Which target each free parameter can move, shape (free, targets)."""
-        looked = [self._looked[one.experiment] for one in self.targets]
-        return np.array([[p.name in names for names in looked] for p in self.free])
+        """Which target each free parameter moves, shape (free, targets)."""
+        found, every = moves(self.experiments), chosen(self.experiments)
+        return found[found.any(axis=1)][:, [every.index(one) for one in self.targets]]
 
     def rows(self, x: Floats) -> Floats:
-        """Return the values of all parameters for variables, shape (rigs, free).
-
-        Those that are not sought have the value of the file.
-
-        Returns:
-            Floats: Shape (rigs, parameters), in the order of `space`.
-        """
-        found = {name: np.full(len(x), one.value) for name, one in space().items()}
-        found |= {p.name: p.at(share) for p, share in zip(self.free, ndtr(x).T, strict=True)}
-        return np.stack(list(found.values()), axis=1)
+        """Return the values of all parameters, as `values_at`, for variables (rigs, free)."""
+        return values_at(self.free, ndtr(x))
 
     def variables(self, rows: Floats) -> Floats:
         """Return the variables of values, the inverse of `rows`."""
@@ -120,7 +122,9 @@ class Problem:
 
     def off(self, x: Floats, *, jobs: int | None = None, progress: bool = False) -> Floats:
         """Return by how many tolerances rigs miss the print, shape (rigs, targets)."""
-        return misfit(self.rows(x), experiments=self.experiments, jobs=jobs, progress=progress)
+        off = misfit(self.rows(x), experiments=self.experiments, jobs=jobs, progress=progress)
+        every = chosen(self.experiments)
+        return off[:, [every.index(one) for one in self.targets]]
 
     def missed(self, off: Floats) -> Floats:
         """Return by how many errors what is observed is missed, those that are far compressed."""

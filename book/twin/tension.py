@@ -19,6 +19,10 @@ REACH = 0.5
 """How far a variable may go in one round, in deviations: so far its lines are trusted."""
 HOLDS = 1.0
 """Errors within which a target holds."""
+PRICE, LOST = 1e-3, 5.0
+"""Of an error that a target is beyond what holds, beside one that is given up: it shows the way
+on where no step gives up fewer. What is missed by more than so many errors is lost, and priced at
+nothing."""
 SECONDS = 60.0
 """Most that a program may take."""
 
@@ -49,19 +53,22 @@ def program(missed: Floats, slopes: Floats, x: Floats, reach: float = REACH) -> 
     """
     count, free = slopes.shape
     # Unknown: the step, for each target whether it is given up, and how far it is beyond.
-    largest = np.abs(missed) + reach * np.abs(slopes).sum(axis=1) + 1
-    over = np.hstack([slopes, -np.diag(largest)])
-    under = np.hstack([-slopes, -np.diag(largest)])
-    limits = [
-        LinearConstraint(over, ub=HOLDS - missed),
-        LinearConstraint(under, ub=HOLDS + missed),
-    ]
+    largest = np.diag(np.abs(missed) + reach * np.abs(slopes).sum(axis=1) + 1)
+    none, one = np.zeros((count, count)), np.eye(count)
+    sides = [np.hstack([side * slopes, own]) for side in (1, -1) for own in (
+        np.hstack([-largest, none]), np.hstack([none, -one]),
+    )]  # fmt: skip
+    ends = np.concatenate([HOLDS - missed] * 2 + [HOLDS + missed] * 2)
     low, high = np.maximum(-reach, -FURTHEST - x), np.minimum(reach, FURTHEST - x)
+    price = np.where(np.abs(missed) < LOST, PRICE, 0.0)
     found = milp(
-        np.concatenate([np.zeros(free), np.ones(count)]),
-        constraints=limits,
-        bounds=Bounds(np.append(low, np.zeros(count)), np.append(high, np.ones(count))),
-        integrality=np.append(np.zeros(free), np.ones(count)),
+        np.concatenate([np.zeros(free), np.ones(count), price]),
+        constraints=LinearConstraint(np.vstack(sides), ub=ends),
+        bounds=Bounds(
+            np.append(low, np.zeros(2 * count)),
+            np.concatenate([high, np.ones(count), np.full(count, np.inf)]),
+        ),
+        integrality=np.concatenate([np.zeros(free), np.ones(count), np.zeros(count)]),
         options={"time_limit": SECONDS},
     )
     return np.zeros(free) if found.x is None else np.asarray(found.x[:free])
@@ -77,13 +84,20 @@ def fewest(problem: Problem, x: Floats, *, rounds: int, jobs: int | None = None)
         # Of the steps on the way there, as lines bend.
         tried = best.x + np.linspace(0.1, 1.0, 10)[:, None] * step
         off = problem.off(tried, jobs=jobs)
-        given_up = np.sum(np.abs(off - problem.observed) > HOLDS * problem.errors, axis=1)
-        k = int(np.argmin(given_up))
-        if given_up[k] < best.dropped.sum():
+        cost = costs(problem, off)
+        k = int(np.argmin(cost))
+        if cost[k] < costs(problem, best.off[None])[0]:
             best = Dropped(tried[k], off[k], _misses(problem, off[k]))
         else:
             reach /= 2
     return best
+
+
+def costs(problem: Problem, off: Floats) -> Floats:
+    """Return the number of targets that do not hold, and the price of what they are beyond."""
+    missed = np.abs(off - problem.observed) / problem.errors
+    beyond = np.clip(missed - HOLDS, 0, LOST)
+    return np.asarray(np.sum((beyond > 0) + PRICE * beyond, axis=1))
 
 
 def _dropped(problem: Problem, x: Floats, jobs: int | None) -> Dropped:
