@@ -1,16 +1,24 @@
-"""The printed targets beside what the calibrated rig gives: ``python -m book.twin targets``."""
+"""The twin's commands.
+
+``python -m book.twin targets`` shows the targets beside what the calibrated rig gives, ``fit`` fits
+the rig to them, ``outcomes`` runs the kept rigs anew.
+"""
 
 import argparse
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
+from book.twin import outcomes
+from book.twin.fit import fit
 from book.twin.laboratory import Laboratory
 from book.twin.recipes import FAST, SLOW, measured
 from book.twin.space import values
 from book.twin.targets import Target, targets
 
+STAGES = Path("book/_build/twin")
 NEAR = 10.0
 """Largest deviation, %, of a target that is counted as met."""
 
@@ -74,13 +82,20 @@ def table(found: Sequence[Met]) -> str:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Print the targets beside what the calibrated rig gives."""
+    """Show, fit or judge."""
     parser = argparse.ArgumentParser(prog="python -m book.twin", description=__doc__)
-    parser.add_argument("command", choices=["targets"])
-    parser.add_argument("--fast", action="store_true", help="without the slow experiments")
+    parser.add_argument("command", choices=["targets", "fit", "outcomes"])
+    parser.add_argument("--fast", action="store_true", help="targets: without slow experiments")
+    parser.add_argument("--jobs", type=int, help="processes; all that joblib's configuration says")
+    parser.add_argument("--stages", type=Path, default=STAGES, help="folder of what is done")
     chosen = parser.parse_args(arguments)
-    experiments = [*FAST] if chosen.fast else [*FAST, *SLOW]
-    print(table(met(Laboratory(values()), experiments)))
+    if chosen.command == "fit":
+        fit(chosen.stages, jobs=chosen.jobs)
+    elif chosen.command == "outcomes":
+        outcomes.KEPT.main()
+    else:
+        experiments = [*FAST] if chosen.fast else [*FAST, *SLOW]
+        print(table(met(Laboratory(values()), experiments)))
 
 
 if __name__ == "__main__":

@@ -96,8 +96,8 @@ class Problem:
     @cached_property
     def free(self) -> tuple[Parameter, ...]:
         """The parameters that are sought: free ones that move a target."""
-        some = moves(self.experiments).any(axis=1).tolist()
-        return tuple(one for one, moved in zip(sought(), some, strict=True) if moved)
+        some = np.flatnonzero(moves(self.experiments).any(axis=1))
+        return tuple(sought()[k] for k in some)
 
     @cached_property
     def touched(self) -> Flags:
