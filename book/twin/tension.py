@@ -15,8 +15,9 @@ from book.twin.problem import FURTHEST, Problem
 from book.twin.recovery import slopes
 from softgrip.arrays import Flags, Floats
 
-REACH = 0.5
-"""How far a variable may go in one round, in deviations: so far its lines are trusted."""
+REACH = 2.0
+"""How far a variable may go in the first round, in deviations. The lines are not true so far; but
+the rigs on the way are really run, and a round that finds none better halves it."""
 HOLDS = 1.0
 """Errors within which a target holds."""
 PRICE, LOST = 1e-3, 5.0
