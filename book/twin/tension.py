@@ -3,13 +3,14 @@
 About a rig the misses are taken as lines in its variables. How few targets must be given up for all
 others to hold within their errors is then a mixed-integer linear program, which has a certain
 answer (HiGHS, by SciPy). It is asked again about the rig that it names, until no fewer are given up
-when that rig is really run.
+when that rig is really run. What a single target costs the others is seen when it alone is left
+out of a robust least-squares fit along the same lines; the rigs of these fits are really run too.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import Bounds, LinearConstraint, milp
+from scipy.optimize import Bounds, LinearConstraint, least_squares, milp
 
 from book.twin.problem import FURTHEST, Problem
 from book.twin.recovery import slopes
@@ -24,6 +25,8 @@ PRICE, LOST = 1e-3, 5.0
 """Of an error that a target is beyond what holds, beside one that is given up: it shows the way
 on where no step gives up fewer. What is missed by more than so many errors is lost, and priced at
 nothing."""
+NEAR = 0.5
+"""The same about a fit in which one target is left out: there the lines must be true."""
 SECONDS = 60.0
 """Most that a program may take."""
 
@@ -108,3 +111,54 @@ def _dropped(problem: Problem, x: Floats, jobs: int | None) -> Dropped:
 
 def _misses(problem: Problem, off: Floats) -> Flags:
     return np.asarray(np.abs(off - problem.observed) > HOLDS * problem.errors)
+
+
+@dataclass(frozen=True)
+class Pull:
+    """What one target costs the others.
+
+    Attributes:
+        left_out: Id of the target that had no say.
+        costs: By how much the squares of the others, none of them above `LOST` squared, fell.
+        freed: Ids of those that hold then and did not before, separated by spaces.
+    """
+
+    left_out: str
+    costs: float
+    freed: str
+
+
+def pulls(problem: Problem, x: Floats, *, jobs: int | None = None) -> list[Pull]:
+    """Leave out each target in turn, and run the rig that the others then ask for.
+
+    Args:
+        problem: What is asked.
+        x: Variables of a rig that is fitted to all, shape (free,).
+        jobs: As of `misfit`.
+    """
+    J = slopes(problem, x, jobs)
+    base = (problem.off(x[None], jobs=jobs)[0] - problem.observed) / problem.errors
+    count = len(base)
+
+    def asked(without: int | None) -> Floats:
+        kept = np.arange(count) != without
+        found = least_squares(
+            lambda step: np.append((base + J @ step)[kept], x + step),
+            np.zeros(x.size),
+            lambda _: np.vstack([J[kept], np.eye(x.size)]),
+            bounds=(np.full(x.size, -NEAR), np.full(x.size, NEAR)),
+            loss="cauchy",
+        )
+        return np.asarray(np.clip(x + found.x, -FURTHEST, FURTHEST))
+
+    rigs = np.array([asked(None), *(asked(k) for k in range(count))])
+    missed = np.abs((problem.off(rigs, jobs=jobs) - problem.observed) / problem.errors)
+    squares = np.minimum(missed, LOST) ** 2
+    found = []
+    for k, own in enumerate(missed[1:]):
+        others = np.arange(count) != k
+        fell = float(np.sum((squares[0] - squares[1 + k])[others]))
+        free = np.flatnonzero(others & (own <= HOLDS) & (missed[0] > HOLDS))
+        names = " ".join(problem.targets[i].id for i in free)
+        found.append(Pull(problem.targets[k].id, fell, names))
+    return found

@@ -1,12 +1,14 @@
 """The smallest set of targets to drop, against all sets by brute force."""
 
+from dataclasses import replace
 from itertools import combinations
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from book.twin.tension import HOLDS, fewest, program
+from book.twin.tension import HOLDS, fewest, program, pulls
 from tests.book.twin.lines import lines
 
 
@@ -37,3 +39,12 @@ def test_two_that_pull_apart_cost_one():
     found = fewest(problem, np.array([2.5, 0.0]), rounds=8)
     assert found.dropped.sum() == 1
     assert not found.dropped[2]
+
+
+def test_what_a_target_costs_is_seen_when_it_is_left_out():
+    """Three agree, one pulls away; that one costs them, none of them costs the others."""
+    problem = lines([[3.0, 0.0], [3.0, 0.0], [3.0, 0.0], [0.0, 3.0]], [0.0, 0.0, 3.0, 0.5])
+    problem = replace(problem, targets=tuple(SimpleNamespace(id=f"{k}") for k in range(4)))
+    found = {one.left_out: one for one in pulls(problem, np.array([0.3, 0.1]))}
+    assert max(found.values(), key=lambda one: one.costs).left_out == "2"
+    assert found["2"].costs > 0
