@@ -3,14 +3,14 @@
 About a rig the misses are taken as lines in its variables. How few targets must be given up for all
 others to hold within their errors is then a mixed-integer linear program, which has a certain
 answer (HiGHS, by SciPy). It is asked again about the rig that it names, until no fewer are given up
-when that rig is really run. What a single target costs the others is seen when it alone is left
-out of a robust least-squares fit along the same lines; the rigs of these fits are really run too.
+when that rig is really run. What stands in the way of one that is given up, a linear program says
+by its prices.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import Bounds, LinearConstraint, least_squares, milp
+from scipy.optimize import Bounds, LinearConstraint, linprog, milp
 
 from book.twin.problem import FURTHEST, Problem
 from book.twin.recovery import slopes
@@ -26,7 +26,7 @@ PRICE, LOST = 1e-3, 5.0
 on where no step gives up fewer. What is missed by more than so many errors is lost, and priced at
 nothing."""
 NEAR = 0.5
-"""The same about a fit in which one target is left out: there the lines must be true."""
+"""The same about a rig that is not left far: there the lines must be true."""
 SECONDS = 60.0
 """Most that a program may take."""
 
@@ -115,50 +115,60 @@ def _misses(problem: Problem, off: Floats) -> Flags:
 
 @dataclass(frozen=True)
 class Pull:
-    """What one target costs the others.
+    """What stands against a target that was given up.
 
     Attributes:
-        left_out: Id of the target that had no say.
-        costs: By how much the squares of the others, none of them above `LOST` squared, fell.
-        freed: Ids of those that hold then and did not before, separated by spaces.
+        id: Of the target.
+        left: By how many errors it must miss if all that hold are to go on holding, along the
+            lines.
+        really: By how many the rig at the end of these lines misses when it is run.
+        against: Ids of the targets that stand in its way, the strongest first, separated by spaces.
+        ranges: Names of the parameters that are at an end of their range, or of what the lines were
+            trusted for.
     """
 
-    left_out: str
-    costs: float
-    freed: str
+    id: str
+    left: float
+    really: float
+    against: str
+    ranges: str
 
 
-def pulls(problem: Problem, x: Floats, *, jobs: int | None = None) -> list[Pull]:
-    """Leave out each target in turn, and run the rig that the others then ask for.
+STRONGEST = 4
+"""Of those that stand in the way, as many are named."""
 
-    Args:
-        problem: What is asked.
-        x: Variables of a rig that is fitted to all, shape (free,).
-        jobs: As of `misfit`.
+
+def against(problem: Problem, given: Dropped, *, jobs: int | None = None) -> list[Pull]:
+    """Move each target that was given up as near to its print as those that hold allow.
+
+    A linear program about the rig; what stands in the way has a price in it, other than zero.
     """
-    J = slopes(problem, x, jobs)
-    base = (problem.off(x[None], jobs=jobs)[0] - problem.observed) / problem.errors
-    count = len(base)
-
-    def asked(without: int | None) -> Floats:
-        kept = np.arange(count) != without
-        found = least_squares(
-            lambda step: np.append((base + J @ step)[kept], x + step),
-            np.zeros(x.size),
-            lambda _: np.vstack([J[kept], np.eye(x.size)]),
-            bounds=(np.full(x.size, -NEAR), np.full(x.size, NEAR)),
-            loss="cauchy",
-        )
-        return np.asarray(np.clip(x + found.x, -FURTHEST, FURTHEST))
-
-    rigs = np.array([asked(None), *(asked(k) for k in range(count))])
-    missed = np.abs((problem.off(rigs, jobs=jobs) - problem.observed) / problem.errors)
-    squares = np.minimum(missed, LOST) ** 2
+    J = slopes(problem, given.x, jobs)
+    missed = (given.off - problem.observed) / problem.errors
+    held = ~given.dropped
+    free = J.shape[1]
+    low = np.maximum(-NEAR, -FURTHEST - given.x)
+    high = np.minimum(NEAR, FURTHEST - given.x)
     found = []
-    for k, own in enumerate(missed[1:]):
-        others = np.arange(count) != k
-        fell = float(np.sum((squares[0] - squares[1 + k])[others]))
-        free = np.flatnonzero(others & (own <= HOLDS) & (missed[0] > HOLDS))
-        names = " ".join(problem.targets[i].id for i in free)
-        found.append(Pull(problem.targets[k].id, fell, names))
+    for k in np.flatnonzero(given.dropped):
+        A = np.hstack([np.vstack([J[held], -J[held]]), np.zeros((2 * held.sum(), 1))])
+        own = np.array([[*J[k], -1.0], [*-J[k], -1.0]])
+        ends = [HOLDS - missed[held], HOLDS + missed[held], missed[k] * np.array([-1.0, 1.0])]
+        answer = linprog(
+            np.append(np.zeros(free), 1.0),
+            np.vstack([A, own]),
+            np.concatenate(ends),
+            bounds=[*zip(low, high, strict=True), (0, None)],
+        )
+        price = np.abs(answer.ineqlin.marginals[: 2 * held.sum()]).reshape(2, -1).sum(axis=0)
+        order = [i for i in np.argsort(-price)[:STRONGEST] if price[i] > 1e-6]
+        ids = [problem.targets[np.flatnonzero(held)[i]].id for i in order]
+        moved = np.clip(given.x + answer.x[:free], -FURTHEST, FURTHEST)
+        off = problem.off(moved[None], jobs=jobs)[0]
+        ends_of = np.abs(answer.lower.marginals[:free]) + np.abs(answer.upper.marginals[:free])
+        at = [problem.free[i].name for i in np.argsort(-ends_of)[:STRONGEST] if ends_of[i] > 1e-6]
+        really = float(abs(off[k] - problem.observed[k]) / problem.errors[k])
+        found.append(
+            Pull(problem.targets[k].id, float(answer.fun), really, " ".join(ids), " ".join(at))
+        )
     return found

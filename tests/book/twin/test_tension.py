@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from book.twin.tension import HOLDS, fewest, program, pulls
+from book.twin.tension import HOLDS, Dropped, against, fewest, program
 from tests.book.twin.lines import lines
 
 
@@ -41,10 +41,16 @@ def test_two_that_pull_apart_cost_one():
     assert not found.dropped[2]
 
 
-def test_what_a_target_costs_is_seen_when_it_is_left_out():
-    """Three agree, one pulls away; that one costs them, none of them costs the others."""
-    problem = lines([[3.0, 0.0], [3.0, 0.0], [3.0, 0.0], [0.0, 3.0]], [0.0, 0.0, 3.0, 0.5])
+def test_what_stands_in_the_way_is_named():
+    """The third asks for 3 of the first variable, of which two others ask for 0; one has no part.
+
+    They hold to 1/3 in x, where it misses by 3 - 1 = 2: by hand.
+    """
+    problem = lines([[3.0, 0.0], [2.0, 0.0], [3.0, 0.0], [0.0, 3.0]], [0.0, 0.0, 3.0, 0.5])
     problem = replace(problem, targets=tuple(SimpleNamespace(id=f"{k}") for k in range(4)))
-    found = {one.left_out: one for one in pulls(problem, np.array([0.3, 0.1]))}
-    assert max(found.values(), key=lambda one: one.costs).left_out == "2"
-    assert found["2"].costs > 0
+    x = np.array([0.1, 0.1])
+    off = problem.off(x[None])[0]
+    (found,) = against(problem, Dropped(x, off, np.array([False, False, True, False])))
+    assert (found.id, found.against) == ("2", "0")
+    assert found.left == pytest.approx(2.0)
+    assert found.really == pytest.approx(2.0)
