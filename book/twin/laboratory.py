@@ -58,12 +58,14 @@ class Laboratory:
         compiled: False for the simulator on NumPy.
         loops, steps: Runs of a closed loop of the gripper of which the median is taken, and of its
             steps at two speeds: those of the book. Fewer are faster, and more chance is left.
+        splits: In training and testing, over which accuracies of kinds of contact are averaged.
     """
 
     values: Values
     compiled: bool = True
     loops: int = 50
     steps: int = 200
+    splits: int = 20
 
     def __getitem__(self, name: str) -> Floats:
         """Return a value of each, shape (rigs,)."""

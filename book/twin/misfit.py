@@ -23,6 +23,9 @@ says nothing, and a mean of squares would hang on it alone."""
 LOOPS, STEPS = 20, 20
 """Runs of `Laboratory.loops` and `steps`: of a deviation, 20 runs tell 16 %, where the print's own
 seven tell 29 %, and the median of 20 is off by some quarter of what a run is."""
+SPLITS = 2
+"""Of `Laboratory.splits`: an accuracy by two splits of 630 contacts is known to 1 %, as the print's
+is."""
 RIGS = 256
 """At a time: enough to fill the compiled lanes, in half a gigabyte with all that is imported."""
 
@@ -45,9 +48,10 @@ def deviations(lab: Laboratory, wanted: Sequence[Target]) -> Floats:
     return np.clip(told, -PENALTY, PENALTY)
 
 
-def laboratory(rows: Floats, *, loops: int = LOOPS, steps: int = STEPS) -> Laboratory:
+def laboratory(rows: Floats) -> Laboratory:
     """Return the laboratories of parameters as `space` orders them, shape (rigs, parameters)."""
-    return Laboratory(dict(zip(space(), rows.T.copy(), strict=True)), loops=loops, steps=steps)
+    columns = dict(zip(space(), rows.T.copy(), strict=True))
+    return Laboratory(columns, loops=LOOPS, steps=STEPS, splits=SPLITS)
 
 
 def misfit(

@@ -33,8 +33,6 @@ from softgrip.tactile.kind_evaluation import accuracy, right_on_new, split_score
 from softgrip.tactile.nadaraya_watson import FINEST, STEPS
 from softgrip.units import GRAM_FORCE
 
-SPLITS = 20
-"""Seeds of splits in training and testing over which accuracies are averaged."""
 NEIGHBOURS = range(1, 11)
 SINGLE, BAGGED = "k-nearest neighbours", "bagged neighbours"
 FIELDS = ("young_modulus", "cover", "spread", "rest_spread", "gain_spread", "stiffness_spread",
@@ -202,10 +200,10 @@ HALF_DECADE = round((STEPS - 1) / np.log10(1 / FINEST) / 2)
 
 def kinds(lab: Laboratory) -> Measures:
     """Return the accuracies of Sections 2.3 and 2.4, %, the best k, and the elements of a line."""
-    return _columns(lab, lambda row: _kinds(pad_of(row)))
+    return _columns(lab, lambda row: _kinds(pad_of(row), lab.splits))
 
 
-def _kinds(parameters: PadParameters) -> dict[str, float]:
+def _kinds(parameters: PadParameters, splits: int) -> dict[str, float]:
     training, objects = (
         felt(PAD_TESTS[name], parameters) for name in ("pad-training", "pad-objects")
     )
@@ -215,8 +213,8 @@ def _kinds(parameters: PadParameters) -> dict[str, float]:
         right = right_on_new(model, x, y, objects.responses, objects.kinds)
         return 100 * accuracy(right).share
 
-    by_name = {name: _scores(training, _named(name)) for name in classifiers()}
-    by_k = [_scores(training, _of_k(k))[0] for k in NEIGHBOURS]
+    by_name = {name: _scores(training, _named(name), splits) for name in classifiers()}
+    by_k = [_scores(training, _of_k(k), splits)[0] for k in NEIGHBOURS]
     others = [found for name, found in by_name.items() if name not in (SINGLE, BAGGED)]
     accuracies = {"single": by_name[SINGLE], "bagged": by_name[BAGGED]}
     accuracies["others"] = tuple(np.max(others, axis=0).tolist())
@@ -242,9 +240,9 @@ def _of_k(k: int) -> Callable[[int], Any]:
     return lambda _: nearest_neighbours(k)
 
 
-def _scores(felt: Contacts, make: Callable[[int], Any]) -> tuple[float, ...]:
+def _scores(felt: Contacts, make: Callable[[int], Any], splits: int) -> tuple[float, ...]:
     """Return the mean accuracies over the splits, cross-validated and tested, %."""
-    found = [split_score(make(k), felt.responses, felt.kinds, seed=k) for k in range(SPLITS)]
+    found = [split_score(make(k), felt.responses, felt.kinds, seed=k) for k in range(splits)]
     both = [(one.cross_validated.share, one.tested.share) for one in found]
     return tuple((100 * np.mean(both, axis=0)).tolist())
 
