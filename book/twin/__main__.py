@@ -1,7 +1,8 @@
 """The twin's commands.
 
 ``python -m book.twin targets`` shows the targets beside what the calibrated rig gives, ``fit`` fits
-the rig to them, ``outcomes`` runs the kept rigs anew.
+the rig to them, ``outcomes`` runs the kept rigs anew; ``recovery``, ``held``, ``predictions`` and
+``tension`` ask how far that can be trusted, and what it says.
 """
 
 import argparse
@@ -10,8 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from joblib import parallel_config
 
-from book.twin import outcomes
+from book.twin import outcomes, study
 from book.twin.fit import fit
 from book.twin.laboratory import Laboratory
 from book.twin.recipes import FAST, SLOW, measured
@@ -19,6 +21,7 @@ from book.twin.space import values
 from book.twin.targets import Target, targets
 
 STAGES = Path("book/_build/twin")
+COMMANDS = {"outcomes": outcomes.KEPT, **study.TABLES}
 NEAR = 10.0
 """Largest deviation, %, of a target that is counted as met."""
 
@@ -84,15 +87,16 @@ def table(found: Sequence[Met]) -> str:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Show, fit or judge."""
     parser = argparse.ArgumentParser(prog="python -m book.twin", description=__doc__)
-    parser.add_argument("command", choices=["targets", "fit", "outcomes"])
+    parser.add_argument("command", choices=["targets", "fit", *COMMANDS])
     parser.add_argument("--fast", action="store_true", help="targets: without slow experiments")
     parser.add_argument("--jobs", type=int, help="processes; all that joblib's configuration says")
     parser.add_argument("--stages", type=Path, default=STAGES, help="folder of what is done")
     chosen = parser.parse_args(arguments)
     if chosen.command == "fit":
         fit(chosen.stages, jobs=chosen.jobs)
-    elif chosen.command == "outcomes":
-        outcomes.KEPT.main()
+    elif chosen.command in COMMANDS:
+        with parallel_config(n_jobs=chosen.jobs):
+            COMMANDS[chosen.command].main()
     else:
         experiments = [*FAST] if chosen.fast else [*FAST, *SLOW]
         print(table(met(Laboratory(values()), experiments)))

@@ -30,8 +30,8 @@ class Prediction:
         predicted: Key of `CHAPTERS`.
         id: Of the target.
         low, middle, high: 5, 50 and 95 %, in its unit, for what would be printed.
+        printed: What is printed, or would be of a known rig.
         share: Width of the interval over that before any target was looked at.
-        inside: Whether the print lies between low and high.
     """
 
     predicted: str
@@ -39,8 +39,13 @@ class Prediction:
     low: float
     middle: float
     high: float
+    printed: float
     share: float
-    inside: bool
+
+    @property
+    def holds(self) -> bool:
+        """Whether the print lies within the interval."""
+        return self.low <= self.printed <= self.high
 
 
 def chapter(target: Target) -> int:
@@ -76,10 +81,10 @@ def predictions(
     found = []
     for k in np.flatnonzero(which):
         one = problem.targets[k]
-        low, middle, high = (one.value + one.tolerance * off for off in after[:, k].tolist())
+        off = np.append(after[:, k], problem.observed[k])
+        low, middle, high, printed = (one.value + one.tolerance * off).tolist()
         share = float(np.ptp(after[:, k]) / np.ptp(before[:, k]))
-        inside = bool(after[0, k] <= problem.observed[k] <= after[2, k])
-        found.append(Prediction(name, one.id, low, middle, high, share, inside))
+        found.append(Prediction(name, one.id, low, middle, high, printed, share))
     return found
 
 
