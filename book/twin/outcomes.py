@@ -8,6 +8,7 @@ import numpy as np
 from book.twin.fitted import best_rig, ensemble, nearest
 from book.twin.misfit import chosen, misfit
 from book.twin.problem import error_of
+from book.twin.space import space
 from book.twin.targets import Target
 from softgrip.arrays import Floats
 from softgrip.kept import Kept
@@ -23,7 +24,8 @@ class Outcome:
 
     Attributes:
         id: Of its claim.
-        best: Of the best rig, in the target's unit.
+        before: Of the rig that the space begins with, in the target's unit.
+        best: Of the best rig.
         low, middle, high: 5, 50 and 95 % of the ensemble.
         met: Share of the ensemble within the error of the target.
         nearest: What the rig gives that comes nearest, of all that were run or sought.
@@ -32,6 +34,7 @@ class Outcome:
     """
 
     id: str
+    before: float
     best: float
     low: float
     middle: float
@@ -42,8 +45,8 @@ class Outcome:
     word: str
 
 
-def judged(target: Target, best: float, several: Floats, nearest: float) -> Outcome:
-    """Judge a target by misses in tolerances: of the best rig, of the ensemble, of the nearest.
+def judged(target: Target, before: float, best: float, several: Floats, nearest: float) -> Outcome:
+    """Judge a target by misses in tolerances, of the rigs of `Outcome`.
 
     *Together*: the best rig meets it, or half of the ensemble does; *alone*: some rig does; *out of
     reach*: none that was found. To meet is to be within the error of print and model,
@@ -58,18 +61,19 @@ def judged(target: Target, best: float, several: Floats, nearest: float) -> Outc
     elif distance <= 1:
         word = "alone"
     low, middle, high = np.percentile(several, [5, 50, 95])
-    x = target.value + target.tolerance * np.array([best, low, middle, high, nearest])
-    at = dict(zip(("best", "low", "middle", "high", "nearest"), x.tolist(), strict=True))
+    x = target.value + target.tolerance * np.array([before, best, low, middle, high, nearest])
+    at = dict(zip(("before", "best", "low", "middle", "high", "nearest"), x.tolist(), strict=True))
     return Outcome(target.id, **at, met=met, distance=distance, word=word)
 
 
 def outcomes(jobs: int | None = None) -> list[Outcome]:
     """Run the kept rigs and judge each target of the fast experiments."""
-    rigs = np.concatenate([best_rig()[None], ensemble(), nearest()])
+    before = np.array([one.value for one in space().values()])
+    rigs = np.concatenate([before[None], best_rig()[None], ensemble(), nearest()])
     off = misfit(rigs, jobs=jobs)
-    best, several, near = np.split(off, [1, 1 + len(ensemble())])
+    (was, best), several, near = np.split(off, [2, 2 + len(ensemble())])
     return [
-        judged(target, float(best[0, k]), several[:, k], float(near[k, k]))
+        judged(target, float(was[k]), float(best[k]), several[:, k], float(near[k, k]))
         for k, target in enumerate(chosen())
     ]
 
