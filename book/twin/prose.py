@@ -1,0 +1,87 @@
+"""Computed numbers in the prose of the page *One rig for all numbers*."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from book.twin import outcomes, study
+from book.twin.fitted import ensemble
+from book.twin.misfit import LOOPS, chosen
+from book.twin.pictures import percents
+from book.twin.prediction import CHAPTERS
+from book.twin.problem import MODEL_ERROR, error_of, sought
+from book.twin.smoother import RIGS, ROUNDS
+from book.twin.space import space
+from book.twin.targets import targets
+
+
+def _median(name: str) -> str:
+    return f"{np.median(percents(name)):.1f}"
+
+
+def _within(name: str, percent: float) -> str:
+    return f"{np.sum(percents(name) <= percent)}"
+
+
+def _met(name: str) -> int:
+    """Return how many targets a rig meets within their errors."""
+    pairs = zip(outcomes.KEPT.read(), chosen(), strict=True)
+    off = [(abs(getattr(one, name) - t.value) / t.tolerance, error_of(t)) for one, t in pairs]
+    return sum(miss <= error for miss, error in off)
+
+
+def _count(word: str) -> str:
+    return f"{sum(one.word == word for one in outcomes.KEPT.read())}"
+
+
+def _power(percent: float) -> str:
+    return f"{np.percentile(ensemble()[:, [*space()].index('rubber.power')], percent):.2f}"
+
+
+def _recovered(way: str, what: str) -> str:
+    rows = [one for one in study.TABLES["recovery"].read() if one.way == way]
+    return f"{100 * np.mean([getattr(one, what) for one in rows]):.0f}"
+
+
+def _predicted(name: str) -> list[bool]:
+    return [one.holds for one in study.TABLES["predictions"].read() if one.predicted == name]
+
+
+def _held(name: str) -> str:
+    rows = [one.share for one in study.TABLES["held"].read() if one.predicted == name]
+    return f"{100 * np.mean(rows):.0f}"
+
+
+WORDS: dict[str, Callable[[], str]] = {
+    "targets": lambda: f"{len(targets())}",
+    "asked": lambda: f"{len(chosen())}",
+    "parameters": lambda: f"{len(sought())}",
+    "choices": lambda: f"{sum(one.name.startswith('choice.') for one in sought())}",
+    "model_error": lambda: f"{100 * MODEL_ERROR:.0f}",
+    "median_before": lambda: _median("before"),
+    "median_best": lambda: _median("best"),
+    "near_before": lambda: _within("before", 10),
+    "near_best": lambda: _within("best", 10),
+    "compared": lambda: f"{percents('best').size}",
+    "met_before": lambda: f"{_met('before')}",
+    "met_best": lambda: f"{_met('best')}",
+    "together": lambda: _count("together"),
+    "alone": lambda: _count("alone"),
+    "out": lambda: _count("out of reach"),
+    "power_low": lambda: _power(5),
+    "power_high": lambda: _power(95),
+    "rigs": lambda: f"{RIGS}",
+    "rounds": lambda: f"{ROUNDS}",
+    "kept": lambda: f"{len(ensemble())}",
+    "loops": lambda: f"{LOOPS}",
+    "truths": lambda: f"{study.TRUTHS}",
+    **{
+        f"{way}_{what}": lambda way=way, what=what: _recovered(way, what)  # type: ignore[misc]
+        for way in ("smoother", "strategy")
+        for what in ("parameters", "targets")
+    },
+    "dropped": lambda: f"{len(study.TABLES['tension'].read())}",
+    **{f"predicted_{name}": lambda name=name: f"{len(_predicted(name))}" for name in CHAPTERS},  # type: ignore[misc]
+    **{f"inside_{name}": lambda name=name: f"{sum(_predicted(name))}" for name in CHAPTERS},  # type: ignore[misc]
+    **{f"held_{name}": lambda name=name: _held(name) for name in CHAPTERS},  # type: ignore[misc]
+}
