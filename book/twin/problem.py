@@ -33,6 +33,9 @@ FURTHEST = 5.0
 POINTS = 8
 """Rigs about which it is tried what moves what: at one, an experiment may fail and tell nothing."""
 
+SEEN = 1e-6
+"""Tolerances: what moves a target by less is rounding, which hangs on the other rigs of a part."""
+
 
 def sought() -> tuple[Parameter, ...]:
     """Return the free parameters of the space."""
@@ -68,7 +71,7 @@ def moves(experiments: tuple[str, ...], jobs: int | None = None) -> Flags:
     rows = values_at(free, np.concatenate([about, moved]))
     off = misfit(rows, experiments=experiments, jobs=jobs)
     base, found = off[:POINTS], off[POINTS:].reshape(POINTS, len(free), -1)
-    moved_some: Flags = np.any(found != base[:, None], axis=0)
+    moved_some: Flags = np.any(np.abs(found - base[:, None]) > SEEN, axis=0)
     return moved_some
 
 

@@ -40,6 +40,15 @@ def test_a_parameter_is_tied_to_the_targets_that_it_moves(statics):
     ]  # fmt: skip
 
 
+def test_rounding_ties_nothing():
+    """The settling times on models of many rigs differ in last digits from those of one."""
+    problem = printed(["pid on models", "lifts"])
+    names = [one.name for one in problem.free]
+    row = problem.touched[names.index("choice.friction")]
+    assert row.tolist() == [one.experiment == "lifts" for one in problem.targets]
+    assert not any(name.startswith("pad.") for name in names)
+
+
 def test_a_part_of_the_problem_gives_what_the_whole_does(statics):
     x = statics.prior(4, seed=2)
     which = np.arange(len(statics.targets)) % 2 == 0
