@@ -8,7 +8,6 @@ from book.twin import outcomes, study
 from book.twin.fitted import ensemble
 from book.twin.misfit import LOOPS, chosen
 from book.twin.pictures import percents
-from book.twin.prediction import CHAPTERS
 from book.twin.problem import MODEL_ERROR, error_of, sought
 from book.twin.smoother import RIGS, ROUNDS
 from book.twin.space import space
@@ -38,20 +37,6 @@ def _power(percent: float) -> str:
     return f"{np.percentile(ensemble()[:, [*space()].index('rubber.power')], percent):.2f}"
 
 
-def _recovered(way: str, what: str) -> str:
-    rows = [one for one in study.TABLES["recovery"].read() if one.way == way]
-    return f"{100 * np.mean([getattr(one, what) for one in rows]):.0f}"
-
-
-def _predicted(name: str) -> list[bool]:
-    return [one.holds for one in study.TABLES["predictions"].read() if one.predicted == name]
-
-
-def _held(name: str) -> str:
-    rows = [one.share for one in study.TABLES["held"].read() if one.predicted == name]
-    return f"{100 * np.mean(rows):.0f}"
-
-
 WORDS: dict[str, Callable[[], str]] = {
     "targets": lambda: f"{len(targets())}",
     "asked": lambda: f"{len(chosen())}",
@@ -74,14 +59,5 @@ WORDS: dict[str, Callable[[], str]] = {
     "rounds": lambda: f"{ROUNDS}",
     "kept": lambda: f"{len(ensemble())}",
     "loops": lambda: f"{LOOPS}",
-    "truths": lambda: f"{study.TRUTHS}",
-    **{
-        f"{way}_{what}": lambda way=way, what=what: _recovered(way, what)  # type: ignore[misc]
-        for way in ("smoother", "strategy")
-        for what in ("parameters", "targets")
-    },
     "dropped": lambda: f"{len(study.TABLES['tension'].read())}",
-    **{f"predicted_{name}": lambda name=name: f"{len(_predicted(name))}" for name in CHAPTERS},  # type: ignore[misc]
-    **{f"inside_{name}": lambda name=name: f"{sum(_predicted(name))}" for name in CHAPTERS},  # type: ignore[misc]
-    **{f"held_{name}": lambda name=name: _held(name) for name in CHAPTERS},  # type: ignore[misc]
 }

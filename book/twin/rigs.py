@@ -26,30 +26,26 @@ Row = Mapping[str, Number]
 Make = Callable[[Row], RigParameters]
 
 
-def _stiffness(row: Row, name: str) -> Number:
-    """Return K, N m/rad^n, of the finger of a group of values: the torque that holds 1 rad."""
-    full = row["finger.torque_per_pressure"] * FULL_PRESSURE
-    return full / (row[f"{name}.full_angle"] * DEG) ** row["rubber.power"]
+def _finger(row: Row) -> FingerParameters:
+    """Return the finger of Design 1; the rubber is Dragon Skin 20.
 
-
-def _finger(row: Row, name: str) -> FingerParameters:
-    """Return the finger of a group of values; the rubber is Dragon Skin 20.
-
-    Its frequency and damping ratio are those of small motions about 1 rad, without the memory.
+    Its stiffness is the torque that holds 1 rad, its frequency and damping ratio are those of small
+    motions about 1 rad, without the memory.
     """
-    n, stiffness = row["rubber.power"], _stiffness(row, name)
-    inertia = n * stiffness / row[f"{name}.frequency"] ** 2
+    n, full = row["rubber.power"], row["finger.torque_per_pressure"] * FULL_PRESSURE
+    stiffness = full / (row["finger.full_angle"] * DEG) ** n
+    inertia = n * stiffness / row["finger.frequency"] ** 2
     return FingerParameters(
         stiffness=stiffness,
         fractional_power=n,
         inertia=inertia,
-        damping=2 * row[f"{name}.damping_ratio"] * row[f"{name}.frequency"] * inertia,
+        damping=2 * row["finger.damping_ratio"] * row["finger.frequency"] * inertia,
         torque_per_pressure=row["finger.torque_per_pressure"],
         rest_volume=row["finger.rest_volume"],
         ballooning=row["finger.ballooning"],
         memory=(row["rubber.memory_fast"], row["rubber.memory_slow"]),
         memory_time=(row["rubber.time_fast"], row["rubber.time_slow"]),
-        friction=row["rubber.friction"] * _stiffness(row, "finger"),
+        friction=row["rubber.friction"] * stiffness,
     )
 
 
@@ -63,7 +59,7 @@ def _scaled(rig: RigParameters, row: Row, name: str) -> RigParameters:
 def design_1(row: Row) -> RigParameters:
     """Return the rig with Design 1, of Dragon Skin 20."""
     return RigParameters(
-        (_finger(row, "finger"),),
+        (_finger(row),),
         pump=PumpParameters(acceleration_limit=row["pump.acceleration_limit"]),
         gas=GasParameters(dead_volume=row["gas.dead_volume"], leakage=row["gas.leakage"]),
         sensors=SensorParameters(
@@ -100,11 +96,11 @@ def table_3_2_row(number: int) -> Make:
 
 
 def gripper(row: Row) -> RigParameters:
-    """Return the gripper of Section 6.4, left finger first."""
+    """Return the gripper of Section 6.4, left finger first: Design 1 times free ratios."""
     rig = design_1(row)
     return replace(
         rig,
-        fingers=(_finger(row, "left"), _finger(row, "right")),
+        fingers=tuple(_scaled(rig, row, side).finger for side in ("left", "right")),
         pump=replace(rig.pump, area=row["gripper.area"], syringe_volume=SYRINGE),
         spread=replace(
             rig.spread,
