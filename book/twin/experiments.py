@@ -135,27 +135,36 @@ def _records(
     unread: int = 0,
 ) -> Records:
     """Return the samples from number `unread` on."""
-    count, size = run_count(rigs), round(duration / period) + 1 - unread
-    shapes = {name: (len(rigs.fingers),) * name.endswith("angle") for name in keep}
-    found = {name: np.empty((count, runs, *shape, size)) for name, shape in shapes.items()}
-    steps = steps_for(rigs, period)
-    for number in np.unique(steps):
-        which = np.flatnonzero(steps == number)
-        lanes = np.repeat(which, runs)
-        own = Simulation(
-            take(rigs, lanes), runs=lanes.size, seed=seed, cycle=runs, period=period,
-            plunger=plunger, step=period / number,
+    count, every = run_count(rigs), steps_for(rigs, period)
+    lanes, steps = np.repeat(np.arange(count), runs), np.repeat(every, runs)
+
+    def rig(which: NDArray[np.intp], step: float = LARGEST_STEP) -> Simulation:
+        return Simulation(
+            take(rigs, lanes[which]), runs=which.size, seed=seed, cycle=runs, period=period,
+            plunger=plunger, step=step,
         )  # fmt: skip
-        control = of_runs(law, lanes)
-        made = (
-            vars(drive_compiled(own, control, duration=duration, unread=unread, keep=keep))
-            if compiled
-            else _of_numpy(own, control, duration, unread)
-        )
-        for name, values in found.items():
-            # A view of the kernel's rows.
-            values[which] = made[name][..., unread:].reshape(which.size, *values.shape[1:])
-    time = period * np.arange(unread, unread + float(size))
+
+    if compiled:
+        made = vars(
+            drive_compiled(
+                rig(np.arange(lanes.size)), of_runs(law, lanes), duration=duration, unread=unread,
+                keep=keep, steps=steps,
+            )
+        )  # fmt: skip
+    else:
+        made = {}
+        for number in np.unique(steps):
+            which = np.flatnonzero(steps == number)
+            control = of_runs(law, lanes[which])
+            some = _of_numpy(rig(which, period / number), control, duration, unread)
+            for name, values in some.items():
+                made.setdefault(name, np.empty((lanes.size, *values.shape[1:])))[which] = values
+    found = {
+        # A view of the kernel's rows.
+        name: made[name][..., unread:].reshape(count, runs, *made[name].shape[1:-1], -1)
+        for name in keep
+    }
+    time = period * np.arange(unread, round(duration / period) + 1.0)
     return Records(time, **{name: found.get(name, NOTHING) for name in KEPT})
 
 

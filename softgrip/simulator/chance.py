@@ -3,6 +3,7 @@
 from dataclasses import fields
 
 import numpy as np
+from numpy.typing import NDArray
 
 from softgrip.arrays import Floats
 from softgrip.simulator.parameters import Spread
@@ -68,7 +69,7 @@ class Chance:
         self._block = np.empty((_BLOCK, 1 + fingers, self._single))
         self._used = _BLOCK
 
-    def noises(self, runs: slice, out: Floats) -> None:
+    def noises(self, runs: NDArray[np.intp], out: Floats) -> None:
         """Fill with the noise of the first samples of some runs, shape (runs, samples, sensors)."""
         numbers = self._which[runs].tolist()
         if len(self._which) == self._single:

@@ -63,6 +63,7 @@ def drive_compiled(
     delay: int = 0,
     unread: int = 0,
     keep: Collection[str] = ("pressure", "angle"),
+    steps: NDArray[np.intp] | None = None,
 ) -> Trajectories:
     """Run a controller on a rig at rest, as `drive.drive` does and to 1e-9 of what it gives.
 
@@ -79,6 +80,8 @@ def drive_compiled(
         unread: Samples at the start whose noise is none, >= 0: 1 for a rig that is first read at
             the end of a period, as `Simulation.open_loop` does, so that the noise is the same.
         keep: Names of what is returned, of `QUANTITIES`: each costs 8 bytes a run and sample.
+        steps: Of the integration in a period, >= 1, shape (runs,); None for those of the rig. Runs
+            of as many are put side by side.
 
     Raises:
         InvalidInputError: If an argument is not as said.
@@ -111,17 +114,19 @@ def drive_compiled(
     torque = _of_runs("push", pushed, (None, fingers), count)
     air, own, branches = _arrays_of_rig(rig)
     rows, size = _rows(keep, fingers)
+    taken = np.full(count, rig.steps) if steps is None else _checked_steps(steps, count)
+    order = np.argsort(taken, kind="stable")
     out = np.empty((count, size, samples))
     looks = any(law[name].any() for name in ("D_measured", "B_measured", "start"))
     heard = looks or not {"pressure", "angle"}.isdisjoint(keep)
     noise = np.zeros((kernel.LANES, samples, 1 + fingers))
-    elapsed = np.arange(2.0 * rig.steps + 1) * (rig.period / (2 * rig.steps))
     plan = kernel.Plan(every, float(limit), heard, bool(np.any(rig.parameters.pump.backlash)))
     for part in chunks(count, 1.0, limit=kernel.LANES):
         # A batch that does not fill its lanes repeats its last run.
-        lanes = np.minimum(np.arange(part.start, part.start + kernel.LANES), count - 1)
+        runs = order[part]
+        lanes = np.pad(runs, (0, kernel.LANES - runs.size), mode="edge")
         if heard:
-            rig.chance.noises(part, noise[: part.stop - part.start, unread:])
+            rig.chance.noises(runs, noise[: runs.size, unread:])
         kernel.experiment(
             _records(kernel.RIG, air, lanes, (1,)),
             _records(kernel.FINGER, own, lanes, (fingers,)),
@@ -133,11 +138,12 @@ def drive_compiled(
             ),
             noise,
             _in_lanes(torque, lanes),
-            elapsed,
+            _elapsed(taken[lanes], rig.period),
             plan,
             np.zeros((delay + 1, kernel.LANES)),
             kernel.Rows(**rows),
-            out[part],
+            out,
+            runs,
         )
     if "amount" in keep:
         out[:, rows["amount"]] /= np.reshape(GAS_CONSTANT * rig.parameters.gas.temperature, (-1, 1))
@@ -147,6 +153,21 @@ def drive_compiled(
         if row >= 0
     }
     return Trajectories(np.arange(float(samples)) * rig.period, **kept)
+
+
+def _checked_steps(steps: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+    if steps.shape != (count,) or not (steps >= 1).all():
+        raise InvalidInputError("steps", expected=f"shape ({count},), each >= 1", got=steps)
+    return steps
+
+
+def _elapsed(steps: NDArray[np.intp], period: float) -> Floats:
+    """Return the ends and middles of the steps in a period, s, shape (times, lanes).
+
+    As many as most steps have; where there are fewer, the last are the end of the period.
+    """
+    halves = np.minimum(np.arange(2 * steps.max() + 1)[:, None], 2 * steps)
+    return np.asarray(halves * (period / (2 * steps)))
 
 
 def _rows(keep: Collection[str], fingers: int) -> tuple[dict[str, int], int]:

@@ -36,7 +36,7 @@ RIG = _record(
     "volume gauge atmosphere leakage ballooning rest area syringe_volume end backlash"
     " advance speed_limit acceleration_limit command speed screw plunger"
     " pressure_pace angle_pace pressure_range angle_range pressure_noise angle_noise"
-    " low_count high_count largest_count pressure",
+    " low_count high_count largest_count pressure step",
 )
 FINGER = _record(
     "angle rate sensed",
@@ -130,16 +130,16 @@ SHARED = (laws, gas, motor, sensors, differentiator, lane_power)
 
 
 @_compiled
-def _go(state, j, slope, weight, part):
+def _go(rig, state, j, slope, weight, part):
     """Take a slope into the step, and move to the next stage, `part` of it from its start."""
     state[SUM, j] += weight * slope
-    state[STAGE, j] = state[START, j] + part * slope
+    state[STAGE, j] = state[START, j] + part * rig.step[j] * slope
 
 
 @_compiled
-def _finish(state, step):
+def _finish(rig, state):
     for j in range(LANES):
-        end = state[START, j] + step * state[SUM, j]
+        end = state[START, j] + rig.step[j] * state[SUM, j]
         state[STAGE, j], state[START, j], state[SUM, j] = end, end, 0.0
 
 
@@ -170,9 +170,9 @@ def _gauge_pressure(rig, fingers, syringe):
 def _flow(rig, weight, part):
     for j in range(LANES):
         gauge = rig.gauge[j]
-        _go(rig.amount, j, -_leak(gauge, rig.leakage[j], rig.atmosphere[j]), weight, part)
+        _go(rig, rig.amount, j, -_leak(gauge, rig.leakage[j], rig.atmosphere[j]), weight, part)
         late = gauge - rig.sensed[STAGE, j]
-        _go(rig.sensed, j, late * rig.pressure_pace[j], weight, part)
+        _go(rig, rig.sensed, j, late * rig.pressure_pace[j], weight, part)
 
 
 @_compiled
@@ -186,12 +186,12 @@ def _drive(rig, finger):
 
 
 @_compiled
-def _remember(finger, branch, weight, part):
+def _remember(rig, finger, branch, weight, part):
     for j in range(LANES):
         held = branch.held[STAGE, j]
         finger.torque[j] -= held
         slope = _memory_slope(held, finger.growth[j], branch.memory[j], branch.relaxation[j])
-        _go(branch.held, j, slope, weight, part)
+        _go(rig, branch.held, j, slope, weight, part)
 
 
 @_compiled
@@ -200,10 +200,10 @@ def _bend(rig, finger, weight, part):
         angle, rate = finger.angle[STAGE, j], finger.rate[STAGE, j]
         friction = _friction(rate, finger.friction[j], finger.slow[j])
         torque = finger.torque[j] - friction + finger.push[j]
-        _go(finger.angle, j, rate, weight, part)
-        _go(finger.rate, j, torque * finger.mobility[j], weight, part)
+        _go(rig, finger.angle, j, rate, weight, part)
+        _go(rig, finger.rate, j, torque * finger.mobility[j], weight, part)
         late = angle - finger.sensed[STAGE, j]
-        _go(finger.sensed, j, late * rig.angle_pace[j], weight, part)
+        _go(rig, finger.sensed, j, late * rig.angle_pace[j], weight, part)
 
 
 @_compiled
@@ -213,25 +213,30 @@ def _stage(rig, fingers, branches, syringe, weight, part):
     for f in range(len(fingers)):
         _drive(rig, fingers[f])
         for b in range(branches.shape[1]):
-            _remember(fingers[f], branches[f, b], weight, part)
+            _remember(rig, fingers[f], branches[f, b], weight, part)
         _bend(rig, fingers[f], weight, part)
 
 
 @_compiled
-def _step(rig, fingers, branches, start, middle, end, step):
-    """Take a classical Runge-Kutta step; the air in the syringe is given at three of its times."""
-    _stage(rig, fingers, branches, start, 1 / 6, step / 2)
-    _stage(rig, fingers, branches, middle, 1 / 3, step / 2)
-    _stage(rig, fingers, branches, middle, 1 / 3, step)
-    _stage(rig, fingers, branches, end, 1 / 6, step)
-    _finish(rig.amount, step)
-    _finish(rig.sensed, step)
+def _step(rig, fingers, branches, elapsed, syringe, k):
+    """Take a classical Runge-Kutta step; the air in the syringe is given at three of its times.
+
+    A run that is at the end of the period already, as it has fewer steps than others, stays there.
+    """
+    for j in range(LANES):
+        rig.step[j] = elapsed[2, j] if elapsed[k + 2, j] > elapsed[k, j] else 0.0
+    _stage(rig, fingers, branches, syringe[k], 1 / 6, 1 / 2)
+    _stage(rig, fingers, branches, syringe[k + 1], 1 / 3, 1 / 2)
+    _stage(rig, fingers, branches, syringe[k + 1], 1 / 3, 1.0)
+    _stage(rig, fingers, branches, syringe[k + 2], 1 / 6, 1.0)
+    _finish(rig, rig.amount)
+    _finish(rig, rig.sensed)
     for f in range(len(fingers)):
-        _finish(fingers[f].angle, step)
-        _finish(fingers[f].rate, step)
-        _finish(fingers[f].sensed, step)
+        _finish(rig, fingers[f].angle)
+        _finish(rig, fingers[f].rate)
+        _finish(rig, fingers[f].sensed)
         for b in range(branches.shape[1]):
-            _finish(branches[f, b].held, step)
+            _finish(rig, branches[f, b].held)
 
 
 @_compiled
@@ -243,17 +248,17 @@ def _turn(rig, elapsed, syringe, play):
     for k in range(1, last + 1):
         for j in range(LANES):
             own = Motor(rig.advance[j], rig.speed_limit[j], rig.acceleration_limit[j])
-            moved = rig.screw[j] + _travel(rig.speed[j], rig.command[j], elapsed[k], own)
+            moved = rig.screw[j] + _travel(rig.speed[j], rig.command[j], elapsed[k, j], own)
             screw = min(max(moved, 0.0), rig.end[j])
             place = screw
             if play:
-                turned = min(elapsed[k], _turning_time(rig.speed[j], rig.command[j], own))
+                turned = min(elapsed[k, j], _turning_time(rig.speed[j], rig.command[j], own))
                 peak = rig.screw[j] + _travel(rig.speed[j], rig.command[j], turned, own)
                 behind = _follow(rig.plunger[j], min(max(peak, 0.0), rig.end[j]), rig.backlash[j])
                 place = _follow(behind, screw, rig.backlash[j])
             syringe[k, j] = rig.syringe_volume[j] - rig.area[j] * place
             if k == last:
-                speed = _speed(rig.speed[j], rig.command[j], elapsed[k], own)
+                speed = _speed(rig.speed[j], rig.command[j], elapsed[k, j], own)
                 stopped = (screw <= 0 and speed < 0) or (screw >= rig.end[j] and speed > 0)
                 rig.speed[j] = 0.0 if stopped else speed
                 rig.screw[j], rig.plunger[j] = screw, place
@@ -280,30 +285,30 @@ def _measure(rig, fingers, noise, sample, drawn, angle):
 
 
 @_compiled
-def _write(out, row, sample, values):
+def _write(out, runs, row, sample, values):
     if row >= 0:
-        for j in range(len(out)):
-            out[j, row, sample] = values[j]
+        for j in range(len(runs)):
+            out[runs[j], row, sample] = values[j]
 
 
 @_compiled
-def _keep(rig, fingers, angle, syringe, rows, sample, out):
-    """Write what is kept of a sample into `out`, shape (runs, rows, samples)."""
-    _write(out, rows.command, sample, rig.command)
-    _write(out, rows.motor_speed, sample, rig.speed)
-    _write(out, rows.plunger, sample, rig.plunger)
-    _write(out, rows.amount, sample, rig.amount[STAGE])
-    _write(out, rows.pressure, sample, rig.pressure)
+def _keep(rig, fingers, angle, syringe, rows, sample, out, runs):
+    """Write what is kept of a sample of some runs into `out`, shape (runs, rows, samples)."""
+    _write(out, runs, rows.command, sample, rig.command)
+    _write(out, runs, rows.motor_speed, sample, rig.speed)
+    _write(out, runs, rows.plunger, sample, rig.plunger)
+    _write(out, runs, rows.amount, sample, rig.amount[STAGE])
+    _write(out, runs, rows.pressure, sample, rig.pressure)
     if rows.true_pressure >= 0:
         _gauge_pressure(rig, fingers, syringe)
-        _write(out, rows.true_pressure, sample, rig.gauge)
+        _write(out, runs, rows.true_pressure, sample, rig.gauge)
     for f in range(len(fingers)):
         if rows.true_angle >= 0:
-            _write(out, rows.true_angle + f, sample, fingers[f].angle[STAGE])
+            _write(out, runs, rows.true_angle + f, sample, fingers[f].angle[STAGE])
         if rows.true_rate >= 0:
-            _write(out, rows.true_rate + f, sample, fingers[f].rate[STAGE])
+            _write(out, runs, rows.true_rate + f, sample, fingers[f].rate[STAGE])
         if rows.angle >= 0:
-            _write(out, rows.angle + f, sample, angle[f])
+            _write(out, runs, rows.angle + f, sample, angle[f])
 
 
 @_compiled
@@ -384,7 +389,7 @@ def _held(values, k, row):
 
 
 @_compiled
-def _experiment(rigs, fingers, branches, law, noise, push, elapsed, plan, late, rows, out):
+def _experiment(rigs, fingers, branches, law, noise, push, elapsed, plan, late, rows, out, runs):
     rig = rigs[0]
     inputs, target = np.zeros(law.D_measured.shape), np.zeros(law.D_target.shape)
     x, ahead = np.zeros(law.C.shape), np.zeros(law.C.shape)
@@ -397,7 +402,7 @@ def _experiment(rigs, fingers, branches, law, noise, push, elapsed, plan, late, 
     for sample in range(out.shape[2]):
         if plan.heard:
             _measure(rig, fingers, noise, sample, drawn, angle)
-        _keep(rig, fingers, angle, syringe[last], rows, sample, out)
+        _keep(rig, fingers, angle, syringe[last], rows, sample, out, runs)
         if sample + 1 == out.shape[2]:
             break
         if sample % plan.every == 0:
@@ -419,7 +424,7 @@ def _experiment(rigs, fingers, branches, law, noise, push, elapsed, plan, late, 
             _held(push[:, f], sample, fingers[f].push)
         _turn(rig, elapsed, syringe, plan.play)
         for k in range(0, last, 2):
-            _step(rig, fingers, branches, syringe[k], syringe[k + 1], syringe[k + 2], elapsed[2])
+            _step(rig, fingers, branches, elapsed, syringe, k)
 
 
 def _fingerprint() -> int:

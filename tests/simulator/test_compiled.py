@@ -107,6 +107,22 @@ def test_more_runs_than_lanes_are_the_same_runs():
     both(FINGER, lambda: CommandSequence(speeds), runs=runs, duration=0.5)
 
 
+def test_runs_of_other_steps_are_those_of_a_rig_of_these_steps():
+    """Side by side, in another order: a run hangs on no other."""
+    steps = np.array([4, 1, 2, 1, 4])
+    rigs, speeds = differing(GRIPPER, steps.size), commands(20, 1)[0]
+    found = drive_compiled(
+        Simulation(rigs, seed=4), speeds, duration=0.5, keep=QUANTITIES, steps=steps
+    )
+    for k, number in enumerate(steps):
+        own = Simulation(rigs[k], seed=4, first=k, step=0.025 / number)
+        alone = drive_compiled(own, speeds, duration=0.5, keep=QUANTITIES)
+        for name in QUANTITIES:
+            np.testing.assert_array_equal(
+                getattr(found, name)[k : k + 1], getattr(alone, name), err_msg=name
+            )
+
+
 def test_both_ends_of_the_stroke_stop_the_motor_as_on_numpy():
     rigs = [replace(FINGER, pump=replace(FINGER.pump, backlash=b)) for b in (0.0, 1e-3)]
     speeds = np.repeat([5.0, -5.0, 5.0], 120) * REV
@@ -281,6 +297,8 @@ def test_rig_that_moved_or_touches_is_refused():
         ("delay", {"delay": -1}),
         ("limit", {"limit": 0.0}),
         ("duration", {"duration": 0.0}),
+        ("steps", {"steps": np.array([1])}),
+        ("steps", {"steps": np.array([1, 0])}),
         ("push", {"push": np.zeros((3, 2))}),
         ("push", {"push": np.nan}),
         ("reference", {"control": np.zeros((3, 5))}),
