@@ -64,10 +64,10 @@ def _ludwick(w: Any) -> None:
 def _take(records: Floats, which: Any, first: int, row: Floats) -> int:
     """Fill with some records side by side, shape (N, LANES), and return how many there are."""
     count = min(LANES, len(which) - first)
-    for j in range(LANES):
-        own = which[first + min(j, count - 1)]
-        for k in range(len(row)):
-            row[k, j] = records[own, k]
+    own = np.array([which[first + min(j, count - 1)] for j in range(LANES)])
+    for k in range(len(row)):
+        for j in range(LANES):
+            row[k, j] = records[own[j], k]
     return count
 
 
