@@ -15,12 +15,15 @@ from tests.simulator.rigs import differing
 PERIOD = 0.025
 WANTED_SINGLY, WANTED_IN_BATCHES = 50, 5000
 WANTED_COMPILED, WANTED_ON_TWO_CORES, WANTED_BY_TWO = 3, 5, 1.7
+ALLOWED = 1e-9
+"""Largest difference of compiled and NumPy, rad."""
 SPEED = 8.0
 """Of the motor, rad/s: 4 s in and 4 s out bend the finger and let it back, within the stroke."""
 EFFECTS = (
     "All effects on: memory, ballooning, leak, friction, motor limits, lags, noise, converter,"
     " spread."
 )
+COMPARED = 128
 NUMBERS = 25
 """Kept of one run at one sample, with intermediate results: so a part fits into memory."""
 
@@ -123,4 +126,20 @@ def _compiled_entries(speeds: np.ndarray, runs: int, repetitions: int) -> list[E
             )
         )  # fmt: skip
     note = "Compiles, or loads what an earlier process has left on disk; not in the times above."
-    return [*found, entry("simulated rig, first compiled call", first, "s", None, "", None, note)]
+    found.append(entry("simulated rig, first compiled call", first, "s", None, "", None, note))
+    return [*found, _agreement(speeds, take(own, slice(0, min(runs, COMPARED))))]
+
+
+def _agreement(speeds: np.ndarray, rigs: RigParameters) -> Entry:
+    """Return the largest difference of the true angles of differing rigs, all samples."""
+    _, truth = Simulation(rigs, seed=1, period=PERIOD).open_loop(speeds)
+    found = drive_compiled(
+        Simulation(rigs, seed=1, period=PERIOD), speeds, duration=speeds.size * PERIOD,
+        keep=("true_angle",),
+    )  # fmt: skip
+    error = float(np.abs(found.true_angle[..., 1:] - truth.angle.T).max())
+    return entry(
+        "simulated rig, largest difference of compiled and NumPy",
+        error, "rad", None, f"< {ALLOWED:g}", error < ALLOWED,
+        f"True angles, {truth.angle.shape[-1]} rigs that all differ, {speeds.size * PERIOD:g} s.",
+    )  # fmt: skip
