@@ -37,7 +37,7 @@ def test_what_is_not_told_costs_the_penalty(monkeypatch):
     untold = (np.nan, np.inf, -np.inf, 1e9)
     found = {(t.experiment, t.quantity): np.array([x]) for t, x in zip(wanted, untold, strict=True)}
     monkeypatch.setattr(module, "measured", lambda lab, experiments: found)
-    assert [one.relation for one in wanted] == ["="] * 4
+    assert all(one.relation in "=~" for one in wanted)  # no bounds
     own = deviations(laboratory(TODAY[None]), wanted)
     assert own.tolist() == [[PENALTY, PENALTY, -PENALTY, PENALTY]]
 
