@@ -56,8 +56,10 @@ def draw_deviations() -> Figure:
 
 
 def _of_rigs() -> list[Parameter]:
-    """Return the free parameters that a rig has, without the choices of the experiments."""
-    return [p for p in space().values() if p.status == "free" and not p.name.startswith("choice.")]
+    """Return the parameters of a rig that were fitted, without the choices of the experiments."""
+    moved = np.ptp(ensemble(), axis=0) > 0
+    known = zip(space().values(), moved, strict=True)
+    return [one for one, own in known if own and not one.name.startswith("choice.")]
 
 
 def draw_parameters() -> Figure:

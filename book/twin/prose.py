@@ -8,7 +8,7 @@ from book.twin import outcomes, study
 from book.twin.fitted import ensemble
 from book.twin.misfit import LOOPS, chosen
 from book.twin.pictures import percents
-from book.twin.problem import MODEL_ERROR, error_of, sought
+from book.twin.problem import MODEL_ERROR, error_of
 from book.twin.smoother import RIGS, ROUNDS
 from book.twin.space import space
 from book.twin.targets import targets
@@ -33,6 +33,11 @@ def _count(word: str) -> str:
     return f"{sum(one.word == word for one in outcomes.KEPT.read())}"
 
 
+def _fitted() -> list[str]:
+    """Return the parameters in which the rigs of the ensemble differ."""
+    return [name for name, own in zip(space(), np.ptp(ensemble(), axis=0), strict=True) if own]
+
+
 def _power(percent: float) -> str:
     return f"{np.percentile(ensemble()[:, [*space()].index('rubber.power')], percent):.2f}"
 
@@ -40,8 +45,8 @@ def _power(percent: float) -> str:
 WORDS: dict[str, Callable[[], str]] = {
     "targets": lambda: f"{len(targets())}",
     "asked": lambda: f"{len(chosen())}",
-    "parameters": lambda: f"{len(sought())}",
-    "choices": lambda: f"{sum(one.name.startswith('choice.') for one in sought())}",
+    "parameters": lambda: f"{len(_fitted())}",
+    "choices": lambda: f"{sum(name.startswith('choice.') for name in _fitted())}",
     "model_error": lambda: f"{100 * MODEL_ERROR:.0f}",
     "median_before": lambda: _median("before"),
     "median_best": lambda: _median("best"),
