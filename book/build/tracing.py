@@ -95,7 +95,8 @@ def record(trace: str) -> None:
             if name.partition(".")[0] in ("softgrip", "book")
             and (file := getattr(module, "__file__", None)) is not None
         )
-        files = sorted(_watched(opened) | _watched(modules))
+        # Another thread of a page may open files meanwhile.
+        files = sorted(_watched(opened.copy()) | _watched(modules))
         content = {
             str(file.relative_to(ROOT)): digest(file)
             if file.is_dir() or file.stat().st_mtime < started

@@ -4,6 +4,8 @@ import json
 import os
 import subprocess
 import sys
+import threading
+from pathlib import Path
 
 import pytest
 
@@ -50,6 +52,35 @@ def test_a_kernel_that_is_killed_has_recorded_its_cells(tmp_path, root):
     ended = subprocess.run([sys.executable, "-c", code], cwd=root, env=os.environ)
     assert ended.returncode == 9
     assert "softgrip/units.py" in json.loads(trace.read_text())
+
+
+def test_files_that_a_thread_opens_meanwhile_do_no_harm(tmp_path, monkeypatch):
+    hooks = []
+    monkeypatch.setattr(tracing, "listen", lambda note, *_: hooks.append(note))
+    monkeypatch.setattr(tracing.atexit, "register", hooks.append)
+    monkeypatch.setattr(tracing, "get_ipython", lambda: None)
+    tracing.record(str(tmp_path / "t.json"))
+    note, write = hooks
+    ended = threading.Event()
+
+    def open_files():
+        number = 0
+        while not ended.is_set():
+            note(Path(f"/nowhere/{(number := number + 1)}"))
+
+    # Another thread comes in between any two steps, not every 5 ms.
+    usual = sys.getswitchinterval()
+    sys.setswitchinterval(1e-4)
+    thread = threading.Thread(target=open_files)
+    thread.start()
+    try:
+        for _ in range(3):
+            write()
+    finally:
+        ended.set()
+        thread.join()
+        sys.setswitchinterval(usual)
+    assert (tmp_path / "t.json").exists()
 
 
 def test_listed_folder_is_recorded(tmp_path, root):
