@@ -168,7 +168,7 @@ WORDS = {
     "linear_above": lambda: f"{_end('Design 2', 'linear'):.0f}",
     "linear_misses": lambda: _pair(error(x, "linear", ANGLES[1]) for x in FINGERS),
     "more_pressure": lambda: f"{(ANGLES[1] / ANGLES[0]) ** POWER:.1f}",
-    "linear_answers": lambda: f"{ANGLES[0] * (ANGLES[1] / ANGLES[0]) ** POWER:.0f}",
+    "linear_answers": lambda: f"{resting_angle(*ANGLES, POWER):.0f}",
     "rests": lambda: _span(resting_angle(*ANGLES, n) for _, n in _powers()),
     "share_at_rest": lambda: f"{100 * max(_share_at_rest(*one) for one in _powers()):.0f}",
     "settings": lambda: f"{len(_shared())}",

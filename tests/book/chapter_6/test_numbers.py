@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from book.chapter_6.filters import crossover_of_peaks
-from book.chapter_6.numbers import FINE
-from book.companion.claims import claim_of
+from book.chapter_6.numbers import FINE, tracking_error_on_rig, transient_difference_on_rig
+from book.companion.claims import claim_of, printed
 from softgrip.control.step_metrics import settling_time
 from softgrip.gripper.printed_loop import FILTERS, equal_targets, run_printed
 
@@ -25,3 +25,10 @@ def test_another_weight_makes_the_printed_target_loop_the_one_of_the_filter():
     assert f"{fast:.1f}/s, and those of the other for {slow:.2f}/s" in (
         claim_of(6, "6.4-target-loop-4-8-s").note
     )
+
+
+def test_the_slower_filter_leaves_less_on_the_simulated_rig():
+    """As the notes of both numbers say, which are printed of the faster one."""
+    for measure in (tracking_error_on_rig, transient_difference_on_rig):
+        assert measure(controller="2/s") < measure(controller="4.8/s")
+    assert tracking_error_on_rig(controller="2/s") < printed("6.4-measured-tracking-error")
