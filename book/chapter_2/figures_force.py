@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from book.chapter_2.force_logs import CYCLE_FORCES, REPETITIONS, read
+from book.chapter_2.force_logs import CYCLE_FORCES, read
 from book.chapter_2.forces import (
     RANDOM,
     WHOLE,
@@ -20,6 +20,7 @@ from book.companion.exhibit import figure, table
 from book.companion.style import BLUE, GREEN, GREY, MEASURED, ORANGE, SKY, VERMILION, sheet
 from softgrip.arrays import Floats
 from softgrip.provenance import Provenance
+from softgrip.simulator.force_tests import REPETITIONS
 from softgrip.tactile.force import Weighing, table_2_2
 from softgrip.tactile.force_comparison import regressors
 from softgrip.tactile.nadaraya_watson import left_out_error, tried_bandwidths

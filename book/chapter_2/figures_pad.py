@@ -10,7 +10,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from book.chapter_2.logs import OBJECTS, PAD_SEED, TRAINING, contacts, errors
+from book.chapter_2.logs import OBJECTS, TRAINING, contacts, errors
 from book.companion.claims import printed
 from book.companion.exhibit import figure, table
 from book.companion.style import BLACK, BLUE, GREEN, ORANGE, VERMILION, WIDTH
@@ -21,6 +21,7 @@ from softgrip.simulator.pad_calibration_table import KEPT
 from softgrip.simulator.pad_objects import PadObject, pad_object
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_surface import Pose
+from softgrip.simulator.pad_tests import PAD_SEED
 from softgrip.tactile.contact_pose import FELT, line_angle, place
 from softgrip.tactile.contacts import KINDS
 from softgrip.tactile.pad_layout import ELEMENT_SIDE, PAD_SIZE, THREE_TWO_THREE

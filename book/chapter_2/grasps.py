@@ -12,7 +12,6 @@ from types import MappingProxyType
 import numpy as np
 
 from book.chapter_2.forces import to_force
-from book.chapter_2.logs import PAD_SEED
 from softgrip.arrays import Floats
 from softgrip.control.pid import PERIOD, Gains
 from softgrip.control.step_metrics import step_metrics
@@ -24,6 +23,7 @@ from softgrip.simulator.pad_gripper import GraspGripper, Squeeze, squeeze
 from softgrip.simulator.pad_objects import pad_object
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_surface import Pose
+from softgrip.simulator.pad_tests import PAD_SEED
 from softgrip.tactile.force_control import largest_loop_gain, tuned_gains
 from softgrip.tactile.friction import lift_force, printed_grasps
 from softgrip.units import MM

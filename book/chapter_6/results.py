@@ -17,8 +17,8 @@ from softgrip.gripper.uncertainty import (
 )
 from softgrip.logs.fingers import GripperLogs, each_identified, read_runs
 from softgrip.provenance import data_file
-from softgrip.pump.finger import Finger, swept_volume
 from softgrip.reads import remembered
+from softgrip.simulator import statics
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
 from softgrip.simulator.gripper_calibration import step_identifies
@@ -122,20 +122,9 @@ def recovery(within: float = 1 * DEG) -> Floats:
 def volume_for(count: int, angle: float) -> float:
     """Return what the plunger must sweep to bend so many fingers by an angle [rad], m^3.
 
-    The fingers are those of the simulated gripper, in turn; all are given the pressure that the
-    stiffest of them needs. By the exact gas law, `pump.finger.swept_volume`.
+    The fingers are those of the simulated gripper, in turn.
     """
-    gripper = printed_gripper(spread=False)
-    fingers = [gripper.fingers[k % 2] for k in range(count)]
-    pressure = max(f.stiffness * angle**f.fractional_power / f.torque_per_pressure for f in fingers)
-    at_rest = sum(f.rest_volume for f in fingers)
-    grown = sum(
-        f.torque_per_pressure * (f.torque_per_pressure * pressure / f.stiffness)
-        ** (1 / f.fractional_power) + f.ballooning * pressure
-        for f in fingers
-    )  # fmt: skip
-    asked = Finger(pressure, at_rest, at_rest + grown, gripper.gas.dead_volume, rise_time=1.0)
-    return swept_volume(asked, gripper.pump.syringe_volume, gripper.gas.atmosphere)
+    return float(statics.volume_for(printed_gripper(spread=False), count, angle))
 
 
 def desired() -> Floats:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import lfilter
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, Number
 from softgrip.simulator.sensors import Counts
 
 
@@ -47,16 +47,16 @@ class ForceLayer:
     rest_resistance: float = 20e3
     pressed_resistance: float = 5e3
     bridge_resistance: float = 1.5e3
-    soft_force: float = 0.20
-    memory: tuple[float, float] = (0.10, 0.05)
+    soft_force: Number = 0.20
+    memory: tuple[Number, Number] = (0.10, 0.05)
     lag: tuple[float, float] = (0.5, 20.0)
     supply: float = 5.0
     amplification: float = 5.0
-    voltage_noise: float = 2.5e-3
+    voltage_noise: Number = 2.5e-3
     gain_drift: float = 0.03
     offset_drift: float = 0.02
-    seating: float = 0.02
-    object_seating: float = 0.062
+    seating: Number = 0.02
+    object_seating: Number = 0.062
     largest_count: int = 1023
 
 
@@ -110,7 +110,8 @@ def layer_voltage(felt: Floats, age: float | Floats, layer: ForceLayer) -> Float
 def read_counts(voltage: Floats, noise: Floats, layer: ForceLayer) -> Counts:
     """Return the counts of the converter; `noise` is standard normal, shape as the voltage."""
     scaled = (voltage + layer.voltage_noise * noise) * layer.largest_count / layer.supply
-    return np.clip(np.rint(scaled), 0, layer.largest_count).astype(np.int64)
+    counts: Counts = np.clip(np.rint(scaled), 0, layer.largest_count).astype(np.int64)
+    return counts
 
 
 def volts(counts: Counts, layer: ForceLayer) -> Floats:

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import least_squares
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, Number
 from softgrip.control.rig_controller import CommandSequence
 from softgrip.control.state_feedback import SPEED_DIGITS
 from softgrip.gripper.internal_model import PERIOD
@@ -36,16 +36,21 @@ OPEN_LOOP_DURATION = 6.0
 """Of a test in open loop, s (assumed)."""
 
 
-def push_commands(travel: float, pump: PumpParameters, speed: float = 5 * REV) -> Floats:
+def push_commands(travel: Number, pump: PumpParameters, speed: Number = 5 * REV) -> Floats:
     """Return the motor speeds, rad/s, that push the plunger as far as said, then none.
 
     Args:
-        travel: m, > 0.
+        travel: m, > 0, a number or shape (pushes,).
         pump: Which.
-        speed: Not to be passed, rad/s.
+        speed: Not to be passed, rad/s, as `travel`.
+
+    Returns:
+        ndarray: Shape (periods,) or (pushes, periods), as long as the longest push.
     """
-    periods = max(1, int(np.ceil(travel / (pump.advance * speed * PERIOD) - 1e-9)))
-    return np.full(periods, np.round(travel / (pump.advance * periods * PERIOD), SPEED_DIGITS))
+    way = np.asarray(travel / (pump.advance * PERIOD))[..., None]
+    periods = np.maximum(1, np.ceil(way / np.asarray(speed)[..., None] - 1e-9))
+    speeds = np.round(way / periods, SPEED_DIGITS)
+    return np.where(np.arange(periods.max()) < periods, speeds, 0.0)
 
 
 def step_identifies(

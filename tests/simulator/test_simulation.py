@@ -194,6 +194,46 @@ def test_motor_and_stroke_limits_hold(rig):
     assert truth.motor_speed[truth.plunger == rig.pump.stroke].max() == 0
 
 
+def played(backlash, speeds):
+    """Return the truth of a calm finger whose pump has some play."""
+    pump = replace(CALM.pump, backlash=backlash)
+    return Simulation(replace(CALM, pump=pump)).open_loop(speeds)[1]
+
+
+def test_each_reversal_loses_exactly_the_play():
+    # Over a period of full speed the screw moves 1 mm, far more than the play, either way.
+    play = 3e-4
+    speeds = np.repeat([5.0, -5.0, 5.0, 0.0], [20, 8, 8, 8]) * REV
+    free, lost = played(0.0, speeds).plunger[:, 0], played(play, speeds).plunger[:, 0]
+    before = [19 + 1, 28 + 7]  # pushing: the screw is ahead of the plunger by the play
+    for k, behind in zip((10, *before), (play, play, play), strict=True):
+        assert free[k] - lost[k] == pytest.approx(behind, abs=1e-15)
+    # Drawing back it is not.
+    assert free[26] == pytest.approx(lost[26], abs=1e-15)
+
+
+def test_play_of_a_turn_within_a_period_does_not_depend_on_the_period():
+    # A motor of 0.1 s to full speed turns round within a period: the peak counts, not the samples.
+    speeds = np.array([5.0, -5.0, 0.0, 3.0, -2.0]) * REV
+    pump = replace(CALM.pump, backlash=4e-4)
+    rig = replace(CALM, pump=pump)
+    ends = [
+        Simulation(rig, period=0.1 / n, step=0.025 / n)
+        .open_loop(np.repeat(speeds, n))[1]
+        .plunger[n - 1 :: n]
+        for n in (1, 64)
+    ]
+    np.testing.assert_allclose(ends[0], ends[1], atol=1e-12)
+
+
+def test_no_play_is_the_rig_as_it_is_and_a_little_is_nearly():
+    speeds = abrupt(4, 1, 0.025)
+    without = played(0.0, speeds)
+    none, little = Simulation(CALM).open_loop(speeds)[1], played(1e-9, speeds)
+    np.testing.assert_array_equal(without.angle, none.angle)
+    np.testing.assert_allclose(little.plunger, none.plunger, atol=1e-9 + 1e-15)
+
+
 def test_sensors_have_the_stated_noise():
     found, truth = Simulation(CALM, runs=200, seed=3).open_loop(np.zeros(50))
     off = (found.angle - truth.angle) / DEG

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from book.chapter_2.logs import PAD_TESTS, TRAINING, contacts, errors
+from book.chapter_2.logs import TRAINING, contacts, errors
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.logs.contacts import read_contacts
 from softgrip.logs.reader import read_log
@@ -13,6 +13,7 @@ from softgrip.simulator.pad import to_volts
 from softgrip.simulator.pad_hand import FORCES
 from softgrip.simulator.pad_objects import FOODS
 from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.simulator.pad_tests import PAD_TESTS
 from softgrip.units import DEG, MM
 
 OBJECTS = data_file("simulated/pad-objects.csv").path

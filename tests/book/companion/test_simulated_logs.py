@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from book.chapter_2.logs import PAD_TESTS
 from book.chapter_3.logs import LOGS as REGULATED
 from book.chapter_4.logs import CONTROLLED, PUSHES
 from book.chapter_5.logs import STEPS
@@ -11,6 +10,7 @@ from book.companion.simulated_logs import COMMAND, main, make
 from softgrip.errors import UnknownNameError
 from softgrip.logs.reader import read_log
 from softgrip.provenance import Provenance, data_file
+from softgrip.simulator.pad_tests import PAD_TESTS
 from softgrip.simulator.parameters import SensorParameters
 from softgrip.simulator.sensors import from_counts
 from softgrip.units import ML, MPa

@@ -1,0 +1,68 @@
+"""Computed numbers in the prose of the page *One rig for all numbers*."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from book.twin import outcomes, study
+from book.twin.fitted import ensemble
+from book.twin.misfit import LOOPS, chosen
+from book.twin.pictures import percents
+from book.twin.problem import MODEL_ERROR, error_of
+from book.twin.smoother import RIGS, ROUNDS
+from book.twin.space import space
+from book.twin.targets import targets
+
+
+def _median(name: str) -> str:
+    return f"{np.median(percents(name)):.1f}"
+
+
+def _within(name: str, percent: float) -> str:
+    return f"{np.sum(percents(name) <= percent)}"
+
+
+def _met(name: str) -> int:
+    """Return how many targets a rig meets within their errors."""
+    pairs = zip(outcomes.KEPT.read(), chosen(), strict=True)
+    off = [(abs(getattr(one, name) - t.value) / t.tolerance, error_of(t)) for one, t in pairs]
+    return sum(miss <= error for miss, error in off)
+
+
+def _count(word: str) -> str:
+    return f"{sum(one.word == word for one in outcomes.KEPT.read())}"
+
+
+def _fitted() -> list[str]:
+    """Return the parameters in which the rigs of the ensemble differ."""
+    return [name for name, own in zip(space(), np.ptp(ensemble(), axis=0), strict=True) if own]
+
+
+def _power(percent: float) -> str:
+    return f"{np.percentile(ensemble()[:, [*space()].index('rubber.power')], percent):.2f}"
+
+
+WORDS: dict[str, Callable[[], str]] = {
+    "targets": lambda: f"{len(targets())}",
+    "asked": lambda: f"{len(chosen())}",
+    "parameters": lambda: f"{len(_fitted())}",
+    "choices": lambda: f"{sum(name.startswith('choice.') for name in _fitted())}",
+    "model_error": lambda: f"{100 * MODEL_ERROR:.0f}",
+    "median_before": lambda: _median("before"),
+    "median_best": lambda: _median("best"),
+    "near_before": lambda: _within("before", 10),
+    "near_best": lambda: _within("best", 10),
+    "compared": lambda: f"{percents('best').size}",
+    "met_before": lambda: f"{_met('before')}",
+    "met_best": lambda: f"{_met('best')}",
+    "together": lambda: _count("together"),
+    "alone": lambda: _count("alone"),
+    "out": lambda: _count("out of reach"),
+    "power_low": lambda: _power(5),
+    "power_high": lambda: _power(95),
+    "rigs": lambda: f"{RIGS}",
+    "rounds": lambda: f"{ROUNDS}",
+    "kept": lambda: f"{len(ensemble())}",
+    "loops": lambda: f"{LOOPS}",
+    "dropped": lambda: f"{len(study.TABLES['tension'].read())}",
+}
