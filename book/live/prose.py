@@ -1,6 +1,7 @@
 """Computed numbers in the prose of the pages that drive a rig: live, commissioning, protocol."""
 
 from book.live.experiments import STEP
+from softgrip.arrays import Number
 from softgrip.board.driver import HUNG_AFTER
 from softgrip.board.emulated.board import CLOCK
 from softgrip.board.firmware.config import AT_START, PINS, SCALE, STEPS
@@ -16,7 +17,7 @@ from softgrip.units import DEG, MM
 SENSORS, SUPPLY = SensorParameters(), PadParameters().supply
 
 
-def _volts(count: float) -> float:
+def _volts(count: Number) -> Number:
     return count / SENSORS.largest_count * SUPPLY
 
 
