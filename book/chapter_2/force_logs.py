@@ -17,6 +17,7 @@ from softgrip.logs.schema import LogHeader
 from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance, data_file, data_folder
 from softgrip.simulator.chance import SEED, streams
+from softgrip.simulator.fitted_rigs import fitted_layer
 from softgrip.simulator.force_layer import ForceLayer, felt_force
 from softgrip.simulator.force_tests import (
     PERIOD,
@@ -46,7 +47,7 @@ LONG_WEIGHTS = (10.0, 25.0, 40.0, 60.0)
 
 def load_and_unload(*, seed: int, run: int, layer: ForceLayer | None = None) -> Reading:
     """Return the cycles of Figure 2.8 (b): each force three times, sampled throughout."""
-    layer = layer or ForceLayer()
+    layer = layer or fitted_layer()
     corners = np.cumsum([0.0, RAMP, HOLD, RAMP, REST])
     shape = np.interp(np.arange(0, corners[-1], PERIOD), corners, [0, 1, 1, 0, 0])
     force = np.concatenate([peak * np.tile(shape, REPETITIONS) for peak in CYCLE_FORCES])
@@ -116,7 +117,7 @@ def simulate(name: str) -> LayerLog:
     if name == "objects":
         objects = table_2_2()
         forces = np.repeat([weighed.true for weighed in objects.values()], TIMES)
-        found = put_down(forces, seed=SEED, run=run, seating=ForceLayer().object_seating)
+        found = put_down(forces, seed=SEED, run=run, seating=fitted_layer().object_seating)
         return LayerLog(found, tuple(np.repeat([*objects], TIMES).tolist()))
     return LayerLog(long_run(AGES[run - 3], seed=SEED, run=run))
 

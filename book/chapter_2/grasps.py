@@ -16,12 +16,12 @@ from softgrip.arrays import Floats
 from softgrip.control.pid import PERIOD, Gains
 from softgrip.control.step_metrics import step_metrics
 from softgrip.reads import remembered
-from softgrip.simulator.force_layer import ForceLayer, volts
+from softgrip.simulator.fitted_rigs import fitted_layer, fitted_pad
+from softgrip.simulator.force_layer import volts
 from softgrip.simulator.pad import make_pad
 from softgrip.simulator.pad_grasp import GraspRecord, grasp
 from softgrip.simulator.pad_gripper import GraspGripper, Squeeze, squeeze
 from softgrip.simulator.pad_objects import pad_object
-from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_surface import Pose
 from softgrip.simulator.pad_tests import PAD_SEED
 from softgrip.tactile.force_control import largest_loop_gain, tuned_gains
@@ -46,7 +46,7 @@ END = 1.0
 @remembered
 def squeezes() -> Mapping[str, Squeeze]:
     """Return how the force rises on each object, by its printed name."""
-    pad = make_pad(PadParameters(), PAD_SEED)
+    pad = make_pad(fitted_pad(), PAD_SEED)
     return MappingProxyType(
         {
             name: squeeze(pad, pad_object(item), pose, GraspGripper())
@@ -69,7 +69,7 @@ def largest_stiffness() -> float:
 @remembered
 def count_forces() -> Floats:
     """Return the force that the regressor says for each count of the converter, N."""
-    layer = ForceLayer()
+    layer = fitted_layer()
     return to_force(volts(np.arange(layer.largest_count + 1), layer))
 
 

@@ -12,9 +12,9 @@ from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance, data_file
 from softgrip.reads import remembered
 from softgrip.simulator.chance import streams
+from softgrip.simulator.fitted_rigs import fitted_pad
 from softgrip.simulator.pad import convert, make_pad, press, to_volts, voltages
 from softgrip.simulator.pad_hand import FULL
-from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_tests import BETWEEN, PAD_SEED, PAD_TESTS, draw_contacts
 from softgrip.tactile.contact_pose import PlaceErrors, place_errors
 from softgrip.tactile.contacts import ELEMENTS, Contacts
@@ -32,7 +32,7 @@ def write_pad_log(name: str, path: Path, source: str) -> None:
         path: Of the log.
         source: The command that makes it.
     """
-    test, parameters = PAD_TESTS[name], PadParameters()
+    test, parameters = PAD_TESTS[name], fitted_pad()
     pad = make_pad(parameters, PAD_SEED)
     laid, noise = streams(test.seed, 0)
     header = LogHeader(

@@ -30,7 +30,8 @@ from book.chapter_2.numbers import BAGGED, SINGLE
 from book.companion.claims import printed
 from book.companion.drawn import drawn
 from softgrip.arrays import Floats
-from softgrip.simulator.force_layer import ForceLayer, layer_voltage
+from softgrip.simulator.fitted_rigs import fitted_layer
+from softgrip.simulator.force_layer import layer_voltage
 from softgrip.simulator.pad_gripper import GraspGripper
 from softgrip.simulator.pad_objects import pad_object
 from softgrip.tactile.accuracy import CONFIDENCE
@@ -116,7 +117,7 @@ def _voltages(weight: float) -> Floats:
 
 def _slope() -> float:
     """Return the slope of the layer at the end of its range, counts a gram-force."""
-    layer, step = ForceLayer(), np.array([-0.5, 0.5]) * GRAM_FORCE
+    layer, step = fitted_layer(), np.array([-0.5, 0.5]) * GRAM_FORCE
     change = np.diff(layer_voltage(printed("2.2-range") + step, 0.0, layer))[0]
     return float(change / layer.supply * layer.largest_count)
 

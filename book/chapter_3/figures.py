@@ -43,7 +43,7 @@ from softgrip.actuator.printed import (
 )
 from softgrip.actuator.section import Section, torque
 from softgrip.provenance import Provenance
-from softgrip.simulator.calibration import design_1
+from softgrip.simulator.fitted_rigs import design_1
 from softgrip.units import DEG, MM, MPa
 
 DASHES = ("-", "--", "-.", ":", "--", "-.", ":")

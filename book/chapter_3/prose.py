@@ -17,17 +17,18 @@ from book.chapter_3.figures import (
 )
 from book.chapter_3.figures_control import (
     BANDS,
-    CRITERIA,
     RUNS,
     SHARE,
     STEPS,
+    criteria,
     least_time,
     settled_step,
+    step_size,
 )
 from book.chapter_3.numbers import lqr_settling_on_rig
 from book.chapter_3.numbers import optimum as best
 from book.chapter_3.torque_and_bending import DESIGNS, blocked_torque
-from book.companion.simulated_logs import STEP
+from book.companion.choices import choice
 from book.companion.verdict import recomputed
 from softgrip.actuator.bending import Finger, free_bending
 from softgrip.actuator.certificate import TOLERANCE
@@ -157,18 +158,18 @@ WORDS = {
     "best_top": lambda: f"{optimal_design(STATED).section.top / MM:.0f}",
     "best_bottom": lambda: f"{optimal_design(STATED).section.bottom / MM:.0f}",
     # The regulator: Figures 3.12 and 3.C, Table 3.C.
-    "step": lambda: f"{STEP / DEG:.0f}",
-    "criteria": lambda: " and ".join(f"{100 * share:g} %" for share in CRITERIA[:2]),
-    "criterion": lambda: f"{CRITERIA[2] * STEP / DEG:g}",
-    "two_percent": lambda: f"{100 * CRITERIA[0]:g}",
-    "five_percent": lambda: f"{100 * CRITERIA[1]:g}",
+    "step": lambda: f"{step_size() / DEG:.0f}",
+    "criteria": lambda: " and ".join(f"{100 * share:g} %" for share in criteria()[:2]),
+    "criterion": lambda: f"{choice('lqr_band') / DEG:.1f}",
+    "two_percent": lambda: f"{100 * criteria()[0]:g}",
+    "five_percent": lambda: f"{100 * criteria()[1]:g}",
     "end": lambda: f"{END:g}",
     "runs": lambda: f"{RUNS}",
     "share": lambda: f"{SHARE[1] - SHARE[0]}",
     "printed_on_rig": lambda: f"{lqr_settling_on_rig('printed'):.1f}",
     "fast_on_rig": lambda: f"{lqr_settling_on_rig('fast'):.1f}",
-    "settles": lambda: f"{linear_settling_time(FINGER, Weights(), CRITERIA[0]):.1f}",
-    "any_settles": lambda: f"{least_time(STEP / DEG, CRITERIA[1]):.1f}",
+    "settles": lambda: f"{linear_settling_time(FINGER, Weights(), criteria()[0]):.1f}",
+    "any_settles": lambda: f"{least_time(step_size() / DEG, criteria()[1]):.1f}",
     "pole_bound": lambda: f"{sqrt(Weights().q[0] / Weights().q[1]):.2f}",
     "level": lambda: "{:.1f}, {:.1f} and {:.1f}".format(
         *(settling_at_the_bound(Weights(), band) for band in BANDS.values())

@@ -1,12 +1,13 @@
 """The simulated rig with a finger of another section, and the frequency that its steps tell."""
 
+from book.companion.choices import choice
 from softgrip.actuator.printed import section as printed_section
 from softgrip.actuator.printed import table_3_2
 from softgrip.actuator.section import Section
 from softgrip.dynamics.identify import Identified, identify
 from softgrip.reads import remembered
-from softgrip.simulator.calibration import OPERATING_ANGLE, design_1
 from softgrip.simulator.chance import SEED
+from softgrip.simulator.fitted_rigs import design_1
 from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.scaled_section import with_section
 from softgrip.simulator.steps import simulate_step_test, travel_to
@@ -19,18 +20,23 @@ def rig_with(section: Section) -> RigParameters:
     return with_section(design_1(), section, printed_section("Opt. parameters"))
 
 
-def identified_step(rig: RigParameters, *, angle: float = OPERATING_ANGLE) -> Identified:
+def identified_step(rig: RigParameters, *, angle: float | None = None) -> Identified:
     """Identify the mean of seven simulated steps, pressure to angle, as Section 3.4 does.
 
     Args:
         rig: Its parameters.
-        angle: At which the median run ends, rad.
+        angle: At which the median run ends, rad; None for the fitted one, as none is printed.
     """
-    test = simulate_step_test(rig, travel_to(rig, angle), runs=RUNS, seed=SEED)
+    test = simulate_step_test(
+        rig,
+        travel_to(rig, choice("frequency_step") if angle is None else angle),
+        runs=RUNS,
+        seed=SEED,
+    )
     return identify(test.time, test.pressure, test.angle, initial_input=0.0)
 
 
 @remembered
 def identified_row(row: int) -> Identified:
-    """Identify simulated steps to 60 deg of the section of a row of Table 3.2, 1 to 4."""
+    """Identify simulated steps of the section of a row of Table 3.2, 1 to 4."""
     return identified_step(rig_with(table_3_2()[row - 1].section))

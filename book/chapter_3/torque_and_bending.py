@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
-from softgrip.simulator.calibration import design_1, design_2, design_3
 from softgrip.simulator.chance import SEED, Chance
+from softgrip.simulator.fitted_rigs import design_1, design_2, design_3
 from softgrip.simulator.parameters import FingerParameters, RigParameters
 from softgrip.units import GRAM_FORCE, MM
 
@@ -66,7 +66,7 @@ def settled_angles(
         pressure: Gauge, Pa, >= 0, shape (N,).
         runs, seed: As of `Simulation`.
 
-    >>> from softgrip.simulator.calibration import design_1
+    >>> from softgrip.simulator.fitted_rigs import design_1
     >>> from softgrip.units import DEG
     >>> alike = settled_angles(design_1(spread=False), [0.15e6], runs=1)
     >>> round(float(alike[0, 0]) / DEG, 3)

@@ -6,7 +6,8 @@ import numpy as np
 
 from book.chapter_4.identified_model import identified_model
 from book.chapter_4.pid_gains import pid_gains
-from softgrip.control.designs import STEP, linear_loop
+from book.companion.choices import choice
+from softgrip.control.designs import linear_loop
 from softgrip.control.loop import SPEED_LIMIT, Controller, LoopResult
 from softgrip.control.pid import PID, Gains
 from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed, PressureByPlunger
@@ -48,10 +49,13 @@ def own_loop(design: str, gains: Gains | None = None, *, duration: float = 8.0) 
         system, limit = state_space(model.finger), SET_PRESSURE
     else:
         system, limit = full_state_space(model.finger, model.pump_gain), SPEED_LIMIT
-    return linear_loop(system, gains or pid_gains(design), limit, duration=duration)
+    step = choice("pid_step")
+    return linear_loop(system, gains or pid_gains(design), limit, step=step, duration=duration)
 
 
 def own_step(design: str) -> StepResponse:
     """Judge the step of `own_loop`, as the step of a log is judged."""
     found = own_loop(design, duration=20.0)
-    return judge_step(found.time, np.ravel(found.measured), STEP, window=0)
+    step = choice("pid_step")
+    band = choice("model_band") * step
+    return judge_step(found.time, np.ravel(found.measured), step, window=0, band=band)

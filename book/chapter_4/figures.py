@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from book.chapter_4.controllers import own_loop
 from book.chapter_4.identified_model import identified_model
+from book.chapter_4.pushed import filter_noise, pushed
 from book.companion.claims import printed, printed_text
 from book.companion.exhibit import figure
 from book.companion.style import (
@@ -27,7 +28,7 @@ from softgrip.control.minimum_time import farthest
 from softgrip.dynamics.second_order import full_state_space
 from softgrip.logs.gaps import intervals
 from softgrip.logs.pump import pump_of
-from softgrip.logs.pushes import compare, prior, reference_noise
+from softgrip.logs.pushes import prior
 from softgrip.logs.reader import kept_log, read_log
 from softgrip.provenance import Provenance, data_folder
 from softgrip.pump.capacity import estimate
@@ -93,7 +94,7 @@ def figure_4_4(logs: tuple[Path | str, ...] = ()) -> Figure:
 
 
 def _draw_push(axes: Any, path: Path | str, name: str) -> None:
-    found = compare(path)
+    found = pushed(path)
     axes.plot(found.time, found.measured / MPa, color=MEASURED, lw=3, label=str(found.provenance))
     axes.plot(found.time, found.constant / MPa, color=LINEAR, ls="--", label="constant")
     axes.plot(found.time, found.modified / MPa, color=OTHER, ls="-.", label="modified")
@@ -108,7 +109,7 @@ def _draw_push(axes: Any, path: Path | str, name: str) -> None:
 def figure_4_a() -> Figure:
     """Draw the capacity by the printed filter and by the one that measures pressure."""
     drawn = Figure(figsize=(WIDTH, 3.2))
-    push, hold = compare(kept_log("push-a")), data_folder() / HOLD
+    push, hold = pushed(kept_log("push-a")), data_folder() / HOLD
     angle = read_log(kept_log("push-a"))["angle"]
     seen = push.estimated.capacity
     turned = open_loop_capacity(angle, 1.0, 0.0)
@@ -117,7 +118,7 @@ def figure_4_a() -> Figure:
     _draw_capacity(first, push.time, angle, seen, push.estimated.capacity_std, gain)
     log = read_log(hold)
     flow = pump_of(hold, log).displacement * log["command"]
-    model = ElastanceModel(log.header.period, reference_noise(), prior(push.capacity))
+    model = ElastanceModel(log.header.period, filter_noise(), prior(push.capacity))
     steps = intervals(log["time"], log.header.period)
     held = estimate(log["pressure"], flow, log["angle"], model, steps=steps)
     _draw_capacity(second, held.time, log["angle"], held.capacity, held.capacity_std, gain)

@@ -4,19 +4,21 @@ import numpy as np
 
 from book.chapter_4.controllers import own_step
 from book.chapter_4.figures import GAS_VOLUME
+from book.chapter_4.pushed import pushed
 from book.chapter_4.tables import FINGER
+from book.companion.choices import choice
 from book.companion.claims import printed
 from book.companion.drawn import drawn
 from softgrip.control.designs import NOISE, STEP
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.pid import PERIOD
-from softgrip.logs.pushes import HIGH, LOW, compare
+from softgrip.logs.pushes import HIGH
 from softgrip.logs.reader import kept_log, read_log
 from softgrip.logs.staircase import judge_staircase
 from softgrip.logs.steps import ANGLES, SHARES, StepResponse, judge_step_log
 from softgrip.pump.flow import PARAMETER_SETS
 from softgrip.pump.parts import SUPPLY
-from softgrip.simulator.calibration import design_1
+from softgrip.simulator.fitted_rigs import design_1
 from softgrip.units import DEG, ML, REV, MPa
 
 
@@ -28,7 +30,12 @@ def _rate(name: str) -> float:
 def _ceiling() -> float:
     """Return the pressure of the constant model with the whole syringe pushed, MPa."""
     swept = printed("4.4-syringe") * ML
-    return swept / compare(kept_log("push-a")).capacity / MPa
+    return swept / pushed(kept_log("push-a")).capacity / MPa
+
+
+def _below() -> float:
+    """Return the pressure below which the constant capacity is fitted, MPa."""
+    return choice("capacity_below") / MPa
 
 
 def _end_of_sensor() -> float:
@@ -38,7 +45,7 @@ def _end_of_sensor() -> float:
 
 
 def _on_rig(design: str) -> StepResponse:
-    return judge_step_log(kept_log(f"pid-{design}"))
+    return judge_step_log(kept_log(f"pid-{design}"), band=choice("pid_band"))
 
 
 WORDS = {
@@ -49,7 +56,7 @@ WORDS = {
     # Figures 4.3 and 4.4: mL, MPa
     "gas": lambda: f"{GAS_VOLUME / ML:.0f}",
     "larger_area": lambda: f"{_rate('larger area'):.1f}",
-    "low": lambda: f"{LOW / MPa:.2f}",
+    "low": lambda: f"{_below():.2f}",
     "high": lambda: f"{HIGH / MPa:.2f}",
     "ceiling": lambda: f"{_ceiling():.2f}",
     # Figure 4.A: deg, s, mL/MPa
@@ -61,10 +68,10 @@ WORDS = {
     "wide_share": lambda: f"{100 * SHARES[1]:g}",
     "tight_angle": lambda: f"{ANGLES[0] / DEG:g}",
     "wide_angle": lambda: f"{ANGLES[1] / DEG:g}",
-    "own_actuator": lambda: f"{own_step('actuator').settled_5_deg:.1f}",
-    "own_full": lambda: f"{own_step('full').settled_5_deg:.1f}",
-    "rig_actuator": lambda: f"{_on_rig('actuator').settled_5_deg:.0f}",
-    "rig_full": lambda: f"{_on_rig('full').settled_5_deg:.1f}",
+    "own_actuator": lambda: f"{own_step('actuator').settled:.1f}",
+    "own_full": lambda: f"{own_step('full').settled:.1f}",
+    "rig_actuator": lambda: f"{_on_rig('actuator').settled:.0f}",
+    "rig_full": lambda: f"{_on_rig('full').settled:.1f}",
     # Figures 4.7 and 4.C: deg
     "increment": lambda: f"{np.diff(drawn('Figure 4.7', 'reference')[1]).max():.0f}",
     "top": lambda: f"{drawn('Figure 4.7', 'reference')[1].max():.0f}",

@@ -1,11 +1,14 @@
 """What the sliders of Chapter 4 draw."""
 
+from dataclasses import replace
+
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
 from book.chapter_4.controllers import own_loop
 from book.chapter_4.pid_gains import pid_gains
+from book.chapter_4.pushed import filter_noise
 from book.companion.style import GREY, LINEAR, LUDWICK, MEASURED, PRINTED, VERMILION, still, style
 from softgrip.control.designs import STEP
 from softgrip.control.pid import Gains
@@ -57,7 +60,9 @@ def draw_filter(noise: float) -> Figure:
     Args:
         noise: Factor on the estimated noise of the elastance.
     """
-    found = compare(kept_log("push-a"), noise_factor=noise)
+    levels = filter_noise()
+    scaled = replace(levels, elastance_step=noise * levels.elastance_step)
+    found = compare(kept_log("push-a"), noise=scaled)
     seen, std = found.estimated.capacity, found.estimated.capacity_std
     unit = ML / MPa
     with style():

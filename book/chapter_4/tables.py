@@ -10,11 +10,13 @@ from book.chapter_4.controllers import own_step
 from book.companion.exhibit import table
 from softgrip.logs.reader import kept_log, read_log
 from softgrip.logs.steps import judge_step_log
-from softgrip.provenance import Provenance
+from softgrip.provenance import Provenance, data_file
 from softgrip.pump.finger import Finger
 from softgrip.pump.flow import TABLE_4_1, Pump, flow
 from softgrip.pump.sizing import Sizing, sizings
-from softgrip.simulator.calibration_table import KEPT
+from softgrip.simulator.fitted_rigs import DESIGN_1
+from softgrip.simulator.free_parameters import unit_of
+from softgrip.simulator.rig_file import Line, read_rig
 from softgrip.units import DEG, ML, MM, REV, MPa
 
 FINGER = Finger(
@@ -84,19 +86,21 @@ def _lacking(judged: Sizing) -> str:
 
 @table("4.B", Provenance.SIMULATED)
 def table_4_b() -> pd.DataFrame:
-    """Tabulate the calibration of the simulated rig."""
+    """Tabulate the parameters of the simulated rig, with what the prints leave to them."""
     return pd.DataFrame(
         {
-            "use": entry.use,
-            "place": entry.place,
-            "quantity": entry.quantity,
-            "printed": entry.printed,
-            "rig": f"{entry.rig:.4g}",
-            "unit": entry.unit,
-            "sets": entry.parameter,
+            "parameter": line.name,
+            "unit": unit_of(line.name),
+            "value": f"{line.value:.4g}",
+            "90 % interval": _interval(line),
+            "by the prints": line.status,
         }
-        for entry in KEPT.read()
+        for line in read_rig(data_file(DESIGN_1).path).lines
     )
+
+
+def _interval(line: Line) -> str:
+    return "" if line.low is None else f"{line.low:.3g} to {line.high:.3g}"
 
 
 @table("4.C", Provenance.SIMULATED)

@@ -30,7 +30,7 @@ from softgrip.materials.facts import facts
 from softgrip.materials.fitting import comes_out, grid
 from softgrip.materials.leave_out import RIVALS, leave_k_out
 from softgrip.materials.table import table_5_1
-from softgrip.simulator.calibration import design_1
+from softgrip.simulator.fitted_rigs import design_1
 from softgrip.simulator.parameters import SensorParameters
 from softgrip.units import DEG, MPa
 

@@ -25,8 +25,8 @@ from softgrip.dynamics.linear import second_order
 from softgrip.dynamics.second_order import SecondOrder, response
 from softgrip.kept import Kept
 from softgrip.logs.repeated_steps import StepTest
-from softgrip.simulator.calibration import design_1, design_3
 from softgrip.simulator.chance import SEED
+from softgrip.simulator.fitted_rigs import design_1, design_3
 from softgrip.simulator.steps import simulate_step_test, travel_to
 from softgrip.units import DEG
 

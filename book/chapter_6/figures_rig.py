@@ -11,9 +11,8 @@ from matplotlib.figure import Figure
 from book.chapter_6 import filters
 from book.chapter_6 import speed as gripper_speed
 from book.chapter_6.comparison import CRITERIA, ENTRIES, RIGS, judged, robustness_margin
-from book.chapter_6.logs import LOW_SPEED, names_of
+from book.chapter_6.logs import names_of
 from book.chapter_6.results import (
-    BAND_SHARE,
     bounds,
     desired,
     ends,
@@ -22,6 +21,7 @@ from book.chapter_6.results import (
     largest_weight,
     recovery,
 )
+from book.companion.choices import choice
 from book.companion.exhibit import figure, table
 from book.companion.style import (
     BLUE,
@@ -35,7 +35,6 @@ from book.companion.style import (
     sheet,
 )
 from softgrip.arrays import Floats
-from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.step_metrics import final_value
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.plant import FingerDynamics
@@ -77,7 +76,7 @@ def model_deviation(models: Sequence[FingerDynamics], frequency: Floats) -> Floa
 
 
 def _bands(axes: Any, runs: GripperLogs, printed: tuple[float, float]) -> None:
-    excited = excited_band(runs.commands[0, 1:], runs.period, share=BAND_SHARE)
+    excited = excited_band(runs.commands[0, 1:], runs.period, share=choice("excited_share"))
     axes.axvspan(*excited, color=YELLOW, alpha=0.3, lw=0, label="excited")
     axes.axvspan(*printed, fill=False, ec=PRINTED, ls=":", label="printed as excited")
     axes.axvline(np.pi / runs.period, color=VERMILION, lw=1)
@@ -120,8 +119,8 @@ def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     both = groups(logs, ("open", "low-speed"))
     spreads = {spread.speed: spread for spread in gripper_speed.kept_errors()}
     words = (
-        ("high speed", BLUE, "-", round(SPEED_LIMIT / REV, 9)),
-        ("low speed", ORANGE, "--", round(LOW_SPEED / REV, 9)),
+        ("high speed", BLUE, "-", gripper_speed.printed_speed("high")),
+        ("low speed", ORANGE, "--", gripper_speed.printed_speed("low")),
     )
     drawn, (steps, weights, errors) = sheet(7.4, 3, 1)
     bins = np.arange(-6, 6.1, 0.75).tolist()

@@ -32,7 +32,7 @@ def _limit(which: int) -> float:
 
 def _weights() -> dict[float, float]:
     """Return the largest weight by the motor speeds, rev/s, at which every run has a model."""
-    found = {one: results.largest_weight(one * REV) for one in speed.SPEEDS}
+    found = {one: results.largest_weight(one * REV) for one in speed.speeds()}
     return {one: weight for one, weight in found.items() if weight is not None}
 
 
@@ -52,9 +52,11 @@ WORDS = {
     "slow_above_one": lambda: f"{shown.above_one_from('low-speed'):.0f}",
     "slow_excited": lambda: f"{results.band('low-speed')[1]:.0f}",
     "speed_runs": lambda: f"{speed.RUNS}",
-    "spread_at_rest": lambda: f"{numbers.spread_at_rest(5.0):.1f}",
+    "spread_at_rest": lambda: f"{numbers.spread_at_rest('high'):.1f}",
     "low_speed": lambda: f"{min(_weights()):g}",
-    "weight_grows": lambda: f"{100 * (_weights()[min(_weights())] / _weights()[5.0] - 1):.0f}",
+    "weight_grows": lambda: (
+        f"{100 * (_weights()[min(_weights())] / _weights()[max(_weights())] - 1):.0f}"
+    ),
     # Figure 6.6.
     "noise": lambda: f"{model.NOISE / DEG:g}",
     "push": lambda: f"{model.PUSH:g}",
@@ -148,7 +150,7 @@ WORDS = {
     "found_early": lambda: f"{shown.settles_about(1)[1]:.2f}",
     "found_rig_fast": lambda: f"{numbers.settled_on_rig('4.8/s'):.1f}",
     "found_rig_slow": lambda: f"{numbers.settled_on_rig('2/s'):.1f}",
-    "found_band": lambda: f"{100 * comparison.CRITERIA['10 %'][0]:g}",
+    "found_band": lambda: f"{100 * comparison.criteria()['fitted'][0]:g}",
     "found_frequency_1": lambda: f"{PRINTED.fingers[0].natural_frequency:.2f}",
     "found_frequency_2": lambda: f"{PRINTED.fingers[1].natural_frequency:.2f}",
 }

@@ -4,6 +4,7 @@ import numpy as np
 
 from book.chapter_6.controllers import gripper_controller, own_model, target_angles
 from book.chapter_6.logs import PUSH_FROM, PUSH_UNTIL, RUNS, names_of, push_left
+from book.companion.choices import choice
 from softgrip.arrays import Floats
 from softgrip.control.step_metrics import final_value
 from softgrip.gripper.internal_model import PERIOD
@@ -21,13 +22,10 @@ from softgrip.reads import remembered
 from softgrip.simulator import statics
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
-from softgrip.simulator.gripper_calibration import step_identifies
-from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
+from softgrip.simulator.fitted_rigs import printed_gripper
+from softgrip.simulator.gripper_steps import step_identifies
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG
-
-BAND_SHARE = 0.1
-"""Of the largest amplitude: what counts as excited."""
 
 
 def logs_of(kind: str) -> GripperLogs:
@@ -50,7 +48,13 @@ def identified(kind: str) -> list[list[FingerDynamics]]:
 @remembered
 def identified_without_noise() -> list[list[FingerDynamics]]:
     """Return what the runs of the open-loop logs identify without their sensors."""
-    return step_identifies(printed_gripper(), TRAVEL, runs=RUNS, seed=SEED)[1]
+    return step_identifies(
+        printed_gripper(),
+        choice("gripper_travel"),
+        runs=RUNS,
+        seed=SEED,
+        speed=choice("gripper_speed"),
+    )[1]
 
 
 WEIGHED = np.geomspace(0.5, 80, 60)
@@ -69,7 +73,9 @@ def largest_weight(speed: float) -> float | None:
     Returns:
         float or None: A share; None where not every run identifies a model.
     """
-    _, found = step_identifies(printed_gripper(), TRAVEL, runs=RUNS, seed=SEED, speed=speed)
+    _, found = step_identifies(
+        printed_gripper(), choice("gripper_travel"), runs=RUNS, seed=SEED, speed=speed
+    )
     if len(found[0]) < RUNS:
         return None
     responses = np.array([finger_response(model, WEIGHED) for model in found[0]])
@@ -84,7 +90,7 @@ def bounds(found: list[list[FingerDynamics]]) -> Floats:
 
 def band(kind: str) -> tuple[float, float]:
     """Return the excited band of the command of some logs, rad/s."""
-    return excited_band(logs_of(kind).commands[0, 1:], PERIOD, share=BAND_SHARE)
+    return excited_band(logs_of(kind).commands[0, 1:], PERIOD, share=choice("excited_share"))
 
 
 @remembered

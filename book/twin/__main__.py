@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from joblib import parallel_config
 
-from book.twin import outcomes, study
+from book.twin import kept_rigs, outcomes, study
 from book.twin.fit import fit
 from book.twin.laboratory import Laboratory
 from book.twin.recipes import FAST, SLOW, measured
@@ -87,13 +87,15 @@ def table(found: Sequence[Met]) -> str:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Show, fit or judge."""
     parser = argparse.ArgumentParser(prog="python -m book.twin", description=__doc__)
-    parser.add_argument("command", choices=["targets", "fit", *COMMANDS])
+    parser.add_argument("command", choices=["targets", "fit", "rigs", *COMMANDS])
     parser.add_argument("--fast", action="store_true", help="targets: without slow experiments")
     parser.add_argument("--jobs", type=int, help="processes; all that joblib's configuration says")
     parser.add_argument("--stages", type=Path, default=STAGES, help="folder of what is done")
     chosen = parser.parse_args(arguments)
     if chosen.command == "fit":
         fit(chosen.stages, jobs=chosen.jobs)
+    elif chosen.command == "rigs":
+        print(*kept_rigs.write(), sep="\n")
     elif chosen.command in COMMANDS:
         with parallel_config(n_jobs=chosen.jobs):
             COMMANDS[chosen.command].main()

@@ -7,7 +7,6 @@ the same seed gives the runs of the book's logs.
 
 from collections.abc import Collection
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +21,8 @@ from softgrip.simulator.law_controller import LawController
 from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.rig_batch import run_count, take
 from softgrip.simulator.sampled_law import SampledLaw, command_law, of_runs
-from softgrip.simulator.simulation import LARGEST_STEP, Simulation
+from softgrip.simulator.simulation import Simulation
+from softgrip.simulator.step_size import steps_for
 
 KEPT = ("pressure", "angle", "true_pressure", "true_angle", "plunger")
 NOTHING: Floats = np.empty(0)
@@ -47,28 +47,6 @@ class Records:
     true_pressure: Floats
     true_angle: Floats
     plunger: Floats
-
-
-STIFF = 2.0
-"""Largest product of step and fastest rate: the classical Runge-Kutta method is stable to 2.78."""
-STEPS = np.unique([part * 2**k // 2 for part in (2, 3) for k in range(16)])
-"""Numbers of steps in a period, 1, 2, 3, 4, 6, ...: few, so that many rigs of a batch share one,
-and a rig's own hangs on no other."""
-
-
-def steps_for(rigs: RigParameters, period: float) -> NDArray[np.intp]:
-    """Return how many steps in a period [s] are short enough for all rates of decay, (rigs,)."""
-    rates: list[Any] = [1 / LARGEST_STEP * STIFF]
-    rates += [1 / rigs.sensors.pressure_lag, 1 / rigs.sensors.angle_lag]
-    largest = np.exp(3 * rigs.spread.damping)
-    for finger in rigs.fingers:
-        # Where it is at rest dry friction is a damper, the steepest that it ever is.
-        friction = finger.friction / finger.friction_rate
-        rates.append((largest * finger.damping + friction) / finger.inertia)
-        rates += [1 / time for time in finger.memory_time]
-    fastest = np.max(np.broadcast_arrays(*rates, np.zeros(run_count(rigs))), axis=0)
-    least = np.ceil(fastest * period / STIFF - 1e-9)
-    return np.asarray(STEPS[np.minimum(np.searchsorted(STEPS, least), STEPS.size - 1)])
 
 
 def open_loop(
@@ -138,7 +116,7 @@ def _records(
     count, every = run_count(rigs), steps_for(rigs, period)
     lanes, steps = np.repeat(np.arange(count), runs), np.repeat(every, runs)
 
-    def rig(which: NDArray[np.intp], step: float = LARGEST_STEP) -> Simulation:
+    def rig(which: NDArray[np.intp], step: float | None = None) -> Simulation:
         return Simulation(
             take(rigs, lanes[which]), runs=which.size, seed=seed, cycle=runs, period=period,
             plunger=plunger, step=step,

@@ -18,7 +18,7 @@ from softgrip.gripper.plant import sampled
 from softgrip.gripper.printed_loop import FILTERS
 from softgrip.gripper.shaping_filter import filter_state_space
 from softgrip.gripper.uncertainty import excited_band
-from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION
+from softgrip.simulator.gripper_steps import OPEN_LOOP_DURATION
 from softgrip.simulator.sampled_law import SampledLaw
 from softgrip.simulator.statics import volume_for
 from softgrip.units import DEG, ML, REV

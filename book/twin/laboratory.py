@@ -19,7 +19,7 @@ from book.twin.space import Values
 from softgrip.arrays import Flags, Floats
 from softgrip.control.pid import PERIOD
 from softgrip.gripper.internal_model import PERIOD as GRIPPER_PERIOD
-from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION, push_commands
+from softgrip.simulator.gripper_steps import OPEN_LOOP_DURATION, push_commands
 from softgrip.simulator.parameters import RigParameters, Spread
 from softgrip.simulator.rig_batch import take
 from softgrip.simulator.sampled_law import command_law

@@ -18,9 +18,9 @@ from softgrip.simulator.chance import SEED, streams
 from softgrip.simulator.force_layer import ForceLayer
 from softgrip.simulator.force_tests import put_down, weight_forces
 from softgrip.simulator.pad import convert, make_pad, press, to_volts, voltages
-from softgrip.simulator.pad_calibration_table import NOISES
 from softgrip.simulator.pad_hand import FULL
 from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.simulator.pad_range import NOISES
 from softgrip.simulator.pad_tests import BETWEEN, PAD_SEED, PAD_TESTS, PadTest, draw_contacts
 from softgrip.tactile.contact_kind import bagged_neighbours, classifiers, nearest_neighbours
 from softgrip.tactile.contact_pose import place_errors
@@ -100,7 +100,7 @@ def _columns(lab: Laboratory, measure: Callable[[Row], dict[str, float]]) -> Mea
 def elements(lab: Laboratory) -> Measures:
     """Return the forces at which a pyramid begins to feel, and reaches its ceiling, N.
 
-    `simulator.pad_calibration_table` in closed form: the resistance grows as a thinner film's does.
+    `simulator.pad_range` in closed form: the resistance grows as a thinner film's does.
     """
     pad = PadParameters()
     area = pad.element.base_area * lab["pad.cut"]

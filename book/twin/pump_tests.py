@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from book.chapter_4.pushed import ASSUMED
 from book.twin.laboratory import Laboratory
 from book.twin.pressure_models import filtered_pressure, fitted_capacity, modified_pressure
 from book.twin.step_tests import Measures
-from softgrip.logs.pushes import reference_noise
 from softgrip.units import ML, MM, REV, MPa
 
 SETS = {
@@ -22,7 +22,7 @@ def pushes(lab: Laboratory) -> Measures:
     Figure 4.4 (a) for the constant, the modified and the filtered capacity; (b) to (d) for the
     filtered one, its size: the text has no sign for it.
     """
-    levels, below = reference_noise(), lab["choice.capacity_below"] * MPa
+    levels, below = ASSUMED, lab["choice.capacity_below"] * MPa
     found: Measures = {}
     for name in ("a", *SETS):
         push = lab.default_push if name == "a" else lab.push(*SETS[name])

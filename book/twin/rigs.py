@@ -8,8 +8,6 @@ from dataclasses import replace
 
 from softgrip.actuator.printed import section, table_3_2
 from softgrip.arrays import Number
-from softgrip.simulator.calibration import FULL_PRESSURE
-from softgrip.simulator.gripper_parameters import SYRINGE
 from softgrip.simulator.parameters import (
     FingerParameters,
     GasParameters,
@@ -19,7 +17,11 @@ from softgrip.simulator.parameters import (
     Spread,
 )
 from softgrip.simulator.scaled_section import with_section
-from softgrip.units import DEG
+from softgrip.simulator.statics import FULL_PRESSURE
+from softgrip.units import DEG, ML
+
+SYRINGE = 150 * ML
+"""Of the gripper's pump (Section 6.3), m^3."""
 
 Row = Mapping[str, Number]
 """The values of one rig, or those of many: arrays of shape (rigs,), and so are the parameters."""

@@ -4,6 +4,7 @@ from itertools import count
 
 import numpy as np
 
+from book.chapter_5.step_models import TORQUE_PER_PRESSURE
 from book.twin import rigs
 from book.twin.experiments import Records
 from book.twin.identification import (
@@ -17,7 +18,6 @@ from book.twin.laboratory import Laboratory
 from book.twin.least_squares import Which, differences, fit
 from softgrip.arrays import Floats
 from softgrip.logs.steps import END
-from softgrip.simulator.calibration import TORQUE_PER_PRESSURE
 from softgrip.units import DEG, MM
 
 Measures = dict[str, Floats]

@@ -14,10 +14,9 @@ from softgrip.arrays import Floats
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.provenance import Provenance
 from softgrip.rig.fit_report import report
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.fit_estimates import Inferred
+from softgrip.simulator.fitted_rigs import design_1, printed_gripper
 from softgrip.simulator.free_parameters import free_parameters
-from softgrip.simulator.gripper_parameters import PUMP as GRIPPER_PUMP
 from softgrip.simulator.inference import Progress, infer, silent
 from softgrip.simulator.parameters import PumpParameters, RigParameters
 from softgrip.simulator.rig_file import FittedRig, Line, lines_of, write_rig
@@ -75,7 +74,7 @@ def fit_rig(
 
 def base_rig(trial: Trial, syringe: float | None) -> RigParameters:
     """Return the rig that a fit begins with: the pump of a log, and Design 1 for each finger."""
-    pumps = (PumpParameters(), GRIPPER_PUMP)
+    pumps = (PumpParameters(), printed_gripper().pump)
     known = [one.syringe_volume for one in pumps if abs(one.area / trial.pump.area - 1) < 1e-3]
     if syringe is None and not known:
         raise InvalidInputError(

@@ -18,9 +18,9 @@ from softgrip.control.pid import PERIOD
 from softgrip.kept import Kept
 from softgrip.rig.record import record
 from softgrip.rig.simulated import SimulatedRig
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.fit_estimates import Estimate
+from softgrip.simulator.fitted_rigs import design_1
 from softgrip.simulator.free_parameters import free_parameters, parameter_values, with_values
 from softgrip.simulator.inference import infer
 from softgrip.simulator.laws import settled_torque

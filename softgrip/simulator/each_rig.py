@@ -11,10 +11,7 @@ from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats
 from softgrip.simulator.parameters import RigParameters, Spread
-from softgrip.simulator.simulation import LARGEST_STEP, Simulation
-
-FASTEST = 2.2
-"""Rate of what dies out, times the step of the integration: above 2.78 Runge-Kutta diverges."""
+from softgrip.simulator.simulation import Simulation
 
 
 def felt(
@@ -42,7 +39,6 @@ def felt(
         [replace(rig, spread=Spread()) for rig in rigs],
         period=period,
         plunger=plunger,
-        step=min(LARGEST_STEP, FASTEST / max(map(_fastest, rigs))),
     )
     run.push(torque)
     pressure = np.empty((len(commands), len(rigs)))
@@ -51,9 +47,3 @@ def felt(
         run.hold(command)
         pressure[k], angle[k] = run.felt
     return pressure, np.minimum(angle, rigs[0].sensors.angle_range)
-
-
-def _fastest(rig: RigParameters) -> float:
-    """Return the largest rate at which something dies out, 1/s."""
-    bends = [(one.damping + one.friction / one.friction_rate) / one.inertia for one in rig.fingers]
-    return float(max(1 / rig.sensors.pressure_lag, 1 / rig.sensors.angle_lag, *bends))

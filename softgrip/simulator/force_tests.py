@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats, Number
 from softgrip.simulator.chance import streams
+from softgrip.simulator.fitted_rigs import fitted_layer
 from softgrip.simulator.force_layer import (
     ForceLayer,
     layer_voltage,
@@ -61,13 +62,13 @@ def put_down(
     Args:
         forces: N, shape (weights,), exact: what is recorded is the weight itself.
         seed, run: Of chance.
-        layer: Its parameters; None for those of `ForceLayer`. For several layers, numbers of shape
+        layer: Its parameters; None for `fitted_layer`. For several layers, numbers of shape
             (layers, 1): all meet the same chance.
         seating: Spread of what the layer feels of a weight; None for that of calibration weights.
         age: h, when the first weight is put down.
         unloaded: s, after each weight; a number or shape (weights,).
     """
-    layer = layer or ForceLayer()
+    layer = layer or fitted_layer()
     true = np.asarray(forces, dtype=float)
     own, noise = streams(seed, run)
     spread = layer.seating if seating is None else seating

@@ -143,7 +143,7 @@ def parts(rig: RigParameters) -> dict[str, Any]:
 def parameter_values(rig: RigParameters) -> dict[str, float]:
     """Return all numbers of a rig by name, in the order of its parts.
 
-    >>> from softgrip.simulator.calibration import design_1
+    >>> from softgrip.simulator.fitted_rigs import design_1
     >>> parameter_values(design_1())["finger.memory_time[1]"]
     8.0
     """
@@ -177,7 +177,7 @@ def unit_of(name: str) -> str:
 def with_values(rig: RigParameters, values: Mapping[str, float]) -> RigParameters:
     """Return a rig with other values of some parameters.
 
-    >>> from softgrip.simulator.calibration import design_1
+    >>> from softgrip.simulator.fitted_rigs import design_1
     >>> with_values(design_1(), {"finger.memory[1]": 0.2}).finger.memory
     (0.08, 0.2)
 

@@ -18,7 +18,7 @@ def stacked(rigs: Sequence[RigParameters]) -> RigParameters:
     Args:
         rigs: One a run, >= 1, with as many fingers and branches of memory each.
 
-    >>> from softgrip.simulator.calibration import design_1, design_2
+    >>> from softgrip.simulator.fitted_rigs import design_1, design_2
     >>> both = stacked([design_1(), design_2()])
     >>> both.finger.rest_volume.shape, both.pump.area
     ((2,), 0.000661)

@@ -16,9 +16,8 @@ from softgrip.errors import DataFileError, InvalidInputError, SoftgripError
 from softgrip.kept import write_data
 from softgrip.logs.fingers import column
 from softgrip.provenance import Provenance, describe
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.free_parameters import parameter_values, unit_of, with_values
-from softgrip.simulator.parameters import RigParameters
+from softgrip.simulator.parameters import FingerParameters, RigParameters
 
 SCHEMA = "softgrip-rig 1"
 COLUMNS = ["parameter [unit]", "value", "low", "high", "status"]
@@ -136,10 +135,10 @@ def _form(values: dict[str, float]) -> RigParameters:
     branches = 0
     while f"finger.memory[{branches}]" in values:
         branches += 1
-    like = with_values(design_1(), {})
-    one = like.finger.__class__(
-        **{**vars(like.finger), "memory": (0.0,) * branches, "memory_time": (1.0,) * branches}
-    )
+    one = FingerParameters(
+        stiffness=1.0, fractional_power=1.0, inertia=1.0, damping=1.0, torque_per_pressure=1.0,
+        rest_volume=1.0, memory=(0.0,) * branches, memory_time=(1.0,) * branches,
+    )  # fmt: skip
     return RigParameters((one,) * fingers)
 
 

@@ -20,10 +20,7 @@ from softgrip.simulator.laws import AMOUNT, ANGLE, RATE, SENSED_ANGLE, SENSED_PR
 from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.rig_batch import check_runs, run_count, stacked
 from softgrip.simulator.sensors import Measurement, measure
-
-LARGEST_STEP = 0.025
-"""Of the integration, s. Under abrupt commands, against a step 16 times shorter, the error is below
-2e-4 rad and 5 Pa: a tenth and a hundredth of a count of the converter. A test measures it."""
+from softgrip.simulator.step_size import LARGEST_STEP, steps_for
 
 Sample = TypeVar("Sample", Measurement, "Truth")
 
@@ -66,12 +63,12 @@ class Simulation:
         period: Sampling period, s; commands are held over it.
         plunger: Travel of the plunger at the start, m, a number or shape (runs,).
         contact: What the fingers touch; None for nothing.
-        step: Largest step of the integration, s; a stiff contact asks for a shorter one.
+        step: Largest step of the integration, s, as for a stiff contact; None for `steps_for`.
 
     Raises:
         InvalidInputError: If a value is out of range.
 
-    >>> from softgrip.simulator.gripper_parameters import printed_gripper
+    >>> from softgrip.simulator.fitted_rigs import printed_gripper
     >>> rig = Simulation(printed_gripper(), runs=3)
     >>> rig.advance(5.0).angle.shape
     (2, 3)
@@ -88,7 +85,7 @@ class Simulation:
         period: float = PERIOD,
         plunger: ArrayLike = 0.0,
         contact: DiscBetweenFingers | None = None,
-        step: float = LARGEST_STEP,
+        step: float | None = None,
     ) -> None:
         if isinstance(parameters, RigParameters):
             rig, known = parameters, run_count(parameters)
@@ -101,7 +98,7 @@ class Simulation:
             raise InvalidInputError(
                 "runs, seed, first", expected=">= 1, >= 0, >= 0", got=(runs, seed, first)
             )
-        if not (0 < period < 10 and 0 < step <= LARGEST_STEP):
+        if not (0 < period < 10 and 0 < (step or LARGEST_STEP) <= LARGEST_STEP):
             raise InvalidInputError(
                 "period, step", expected=f"0 to 10 s, 0 to {LARGEST_STEP} s", got=(period, step)
             )
@@ -123,7 +120,7 @@ class Simulation:
         self._speed, self._samples = np.zeros(runs), 0
         self._state = np.zeros((self.plant.states, runs))
         # Stages of a step fall on its ends and its middle.
-        self.steps = ceil(period / step - 1e-9)
+        self.steps = ceil(period / step - 1e-9) if step else int(steps_for(rig, period).max())
         self._half = period / (2 * self.steps)
         self._elapsed: Floats = np.arange(2.0 * self.steps + 1)[:, None] * self._half
         self._syringe = np.empty((self._elapsed.size, runs))

@@ -5,6 +5,10 @@ import numpy as np
 from softgrip.arrays import Floats, Number
 from softgrip.pump.finger import Finger, swept_volume
 from softgrip.simulator.parameters import FingerParameters, RigParameters
+from softgrip.units import MPa
+
+FULL_PRESSURE = 0.15 * MPa
+"""At which Figure 3.10 ends, Pa."""
 
 
 def settled_angle(finger: FingerParameters, pressure: Number) -> Number:

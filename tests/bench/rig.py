@@ -3,14 +3,13 @@
 import numpy as np
 
 from softgrip.arrays import chunks
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.compiled import drive_compiled
 from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.parts import in_parts
 from softgrip.simulator.rig_batch import stacked, take
 from softgrip.simulator.simulation import Simulation
 from tests.bench.entry import Entry, entry, interleaved, spread, timed
-from tests.simulator.rigs import differing
+from tests.simulator.rigs import design_1, differing
 
 PERIOD = 0.025
 WANTED_SINGLY, WANTED_IN_BATCHES = 50, 5000

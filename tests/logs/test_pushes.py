@@ -28,7 +28,7 @@ def test_kept_noise_levels_are_what_the_record_gives():
 
 
 def test_constant_capacity_stays_below_a_closed_syringe(found):
-    """The sign follows from the gas law (`capacity_check`), the text has the other one."""
+    """The sign follows from the gas law , the text has the other one."""
     assert found.error(found.constant) < -0.3
     assert np.all(found.constant[found.measured > 0.1e6] < found.measured[found.measured > 0.1e6])
 

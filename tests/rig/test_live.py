@@ -17,10 +17,10 @@ from softgrip.provenance import data_folder
 from softgrip.rig.connect import connect
 from softgrip.rig.live import LiveRun
 from softgrip.rig.simulated import SimulatedRig
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.simulation import Simulation
 from tests.board.emulated import needs_emulator
+from tests.simulator.rigs import design_1
 
 KEPT = data_folder() / "simulated" / "staircase.csv"
 SOON = 60.0  # s: far more than anything takes on a busy machine, so that a hang is a failure

@@ -24,9 +24,9 @@ from softgrip.provenance import data_folder
 from softgrip.rig.connect import connect
 from softgrip.rig.record import record, show_progress
 from softgrip.rig.simulated import SimulatedRig, simulated_gripper
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.simulation import Simulation
+from tests.simulator.rigs import design_1
 
 FOLDER = data_folder() / "simulated"
 

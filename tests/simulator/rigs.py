@@ -1,12 +1,38 @@
-"""Rigs and commands that differ from run to run."""
+"""Example rigs, which hang on no fit; and rigs and commands that differ from run to run."""
 
 from dataclasses import fields, replace
 
 import numpy as np
 
-from softgrip.simulator.calibration import design_1
-from softgrip.simulator.gripper_parameters import printed_gripper
+from book.twin import rigs as twin
+from book.twin.space import rows, values
+from softgrip.simulator.parameters import Spread
 from softgrip.units import REV
+
+(_BEFORE,) = rows(values())
+"""What the fit to the print begins with."""
+
+
+def _with(make, spread):
+    rig = make(_BEFORE)
+    return rig if spread else replace(rig, spread=Spread())
+
+
+def design_1(*, spread=True):
+    return _with(twin.design_1, spread)
+
+
+def design_2(*, spread=True):
+    return _with(twin.design_2, spread)
+
+
+def design_3(*, spread=True):
+    return _with(twin.design_3, spread)
+
+
+def printed_gripper(*, spread=True):
+    return _with(twin.gripper, spread)
+
 
 THREE = replace(printed_gripper(), fingers=(*printed_gripper().fingers, design_1().finger))
 

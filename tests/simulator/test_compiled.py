@@ -19,16 +19,14 @@ from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.plant import PRINTED
 from softgrip.gripper.shaping_filter import SLOW, filter_state_space
 from softgrip.simulator import kernel
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.compiled import QUANTITIES, drive_compiled
 from softgrip.simulator.drive import drive
-from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.parts import in_parts
 from softgrip.simulator.rig_batch import stacked, take
 from softgrip.simulator.sampled_law import sampled_law
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG, REV
-from tests.simulator.rigs import THREE, commands, differing
+from tests.simulator.rigs import THREE, commands, design_1, differing, printed_gripper
 
 FINGER, GRIPPER = design_1(), printed_gripper()
 PUSH = np.array([[1e-3], [0.0], [-1e-3]])

@@ -5,11 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.each_rig import felt
 from softgrip.simulator.free_parameters import free_parameters, parameter_values, with_values
-from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.simulation import Simulation
+from tests.simulator.rigs import design_1, printed_gripper
 
 COMMANDS = np.repeat([12.0, 0.0, -6.0, 0.0], 20)
 

@@ -5,13 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED, Chance
 from softgrip.simulator.fit_problem import START, Problem
 from softgrip.simulator.free_parameters import parameter_values
-from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.simulation import Simulation
 from softgrip.simulator.trial import read_trial
+from tests.simulator.rigs import design_1, printed_gripper
 from tests.simulator.test_trial import GRIPPER, STEP
 
 

@@ -5,7 +5,6 @@ from dataclasses import fields
 import pytest
 
 from softgrip.errors import InvalidInputError, UnknownNameError
-from softgrip.simulator.calibration import design_1, design_2, design_3
 from softgrip.simulator.free_parameters import (
     Parameter,
     free_parameters,
@@ -14,7 +13,7 @@ from softgrip.simulator.free_parameters import (
     unit_of,
     with_values,
 )
-from softgrip.simulator.gripper_parameters import printed_gripper
+from tests.simulator.rigs import design_1, design_2, design_3, printed_gripper
 
 RIGS = {
     "design 1": design_1(), "design 2": design_2(), "design 3": design_3(),

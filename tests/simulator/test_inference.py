@@ -5,13 +5,12 @@ import pytest
 from scipy.signal import lfilter
 
 from softgrip.errors import InvalidInputError
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.fit_combinations import told_together
 from softgrip.simulator.fit_estimates import Inferred, estimate
 from softgrip.simulator.free_parameters import Parameter
-from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.inference import correlated, infer
 from softgrip.simulator.trial import read_trial
+from tests.simulator.rigs import design_1, printed_gripper
 from tests.simulator.test_fit_problem import at, problem, shortened
 from tests.simulator.test_trial import STEP
 

@@ -6,11 +6,17 @@ import numpy as np
 import pytest
 
 from softgrip.errors import InvalidInputError
-from softgrip.simulator.calibration import design_1, design_2, design_3
-from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.rig_batch import run_count, stacked, take
 from softgrip.simulator.simulation import Simulation
-from tests.simulator.rigs import THREE, commands, differing
+from tests.simulator.rigs import (
+    THREE,
+    commands,
+    design_1,
+    design_2,
+    design_3,
+    differing,
+    printed_gripper,
+)
 
 FINGER = design_1()
 

@@ -4,9 +4,8 @@ import pytest
 
 from softgrip.errors import DataFileError
 from softgrip.provenance import Provenance
-from softgrip.simulator.calibration import design_1
-from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.rig_file import FittedRig, Line, lines_of, read_rig, write_rig
+from tests.simulator.rigs import design_1, printed_gripper
 
 
 def fitted(rig):

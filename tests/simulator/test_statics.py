@@ -6,14 +6,19 @@ import numpy as np
 import pytest
 
 from book.twin.laboratory import travels
-from softgrip.simulator.calibration import FULL_PRESSURE, design_1, design_2, design_3
-from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.laws import finger_volume
 from softgrip.simulator.rig_batch import stacked
 from softgrip.simulator.simulation import Simulation
-from softgrip.simulator.statics import settled_angle, settled_pressure, travel_for, volume_for
+from softgrip.simulator.statics import (
+    FULL_PRESSURE,
+    settled_angle,
+    settled_pressure,
+    travel_for,
+    volume_for,
+)
 from softgrip.simulator.steps import DURATION, simulate_step_test, travel_to
 from softgrip.units import DEG
+from tests.simulator.rigs import design_1, design_2, design_3, printed_gripper
 
 EACH = [make(spread=False) for make in (design_1, design_2, design_3)]
 RIGS = stacked(EACH)

@@ -11,11 +11,11 @@ from softgrip.logs.reader import read_log
 from softgrip.logs.repeated_steps import read_step_test
 from softgrip.provenance import data_file
 from softgrip.simulator import steps
-from softgrip.simulator.calibration import design_1, design_3
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.parameters import PumpParameters
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG, MM
+from tests.simulator.rigs import design_1, design_3
 
 PATHS = [data_file(f"simulated/step-fx-90-{run}.csv").path for run in range(1, 8)]
 

@@ -16,9 +16,9 @@ from softgrip.dynamics.second_order import full_state_space
 from softgrip.errors import UnknownNameError
 from softgrip.logs.steps import judge_step, judge_step_log
 from softgrip.provenance import data_file
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
+from softgrip.simulator.fitted_rigs import design_1
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG
 

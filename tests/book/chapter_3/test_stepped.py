@@ -6,7 +6,8 @@ from book.chapter_3.stepped import identified_step, rig_with
 from softgrip.actuator.printed import section, table_3_2
 from softgrip.actuator.section import Section
 from softgrip.errors import InvalidInputError
-from softgrip.simulator.calibration import OPERATING_ANGLE, design_1, small_signal_poles
+from softgrip.simulator.fitted_rigs import design_1
+from softgrip.simulator.small_signal import OPERATING_ANGLE, small_signal_poles
 
 
 def test_the_printed_optimum_is_design_1():

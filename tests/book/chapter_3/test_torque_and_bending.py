@@ -50,7 +50,7 @@ def test_a_run_of_the_rig_rests_where_the_closed_form_says():
     """The dynamic rig, pushed and left for two minutes without a leak, is the oracle."""
     from dataclasses import replace
 
-    from softgrip.simulator.calibration import design_1
+    from softgrip.simulator.fitted_rigs import design_1
 
     rig = design_1(spread=False)
     rig = replace(rig, gas=replace(rig.gas, leakage=0.0))

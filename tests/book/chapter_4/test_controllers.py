@@ -26,11 +26,15 @@ from softgrip.logs.reader import read_log
 from softgrip.logs.staircase import judge_staircase
 from softgrip.logs.steps import judge_step, judge_step_log, smoothed
 from softgrip.provenance import data_file
-from softgrip.simulator import calibration
-from softgrip.simulator.calibration import OPERATING_ANGLE, design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
+from softgrip.simulator.fitted_rigs import design_1
 from softgrip.simulator.simulation import Simulation
+from softgrip.simulator.small_signal import (
+    OPERATING_ANGLE,
+    small_signal_poles,
+    small_signal_stiffness,
+)
 from softgrip.units import DEG, ML
 
 
@@ -56,9 +60,9 @@ def test_identified_finger_is_near_the_small_signal_truth(model):
     # about n = 2.5 than its slope there, so the frequency is lower than the 2.86 rad/s that the rig
     # is calibrated to at 60 deg, by up to sqrt(2.5).
     true = design_1().finger
-    frequency = abs(calibration.small_signal_poles(true, OPERATING_ANGLE)[0])
+    frequency = abs(small_signal_poles(true, OPERATING_ANGLE)[0])
     assert frequency / 2.5**0.5 * 0.85 < model.finger.natural_frequency < frequency
-    secant = calibration.small_signal_stiffness(true, OPERATING_ANGLE) / 2.5
+    secant = small_signal_stiffness(true, OPERATING_ANGLE) / 2.5
     # The settled gain, less what the slow memory still holds after 6 s (at most 5 %), with spread.
     assert model.finger.gain == pytest.approx(true.torque_per_pressure / secant, rel=0.12)
 

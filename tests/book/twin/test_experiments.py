@@ -5,17 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from book.twin.experiments import KEPT, STEPS, closed_loop, open_loop, steps_for
+from book.twin.experiments import KEPT, closed_loop, open_loop
 from softgrip.control.pid import PID, Gains
 from softgrip.control.rig_controller import Tracking
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
-from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.rig_batch import stacked
 from softgrip.simulator.sampled_law import command_law, sampled_law
-from softgrip.simulator.simulation import LARGEST_STEP, Simulation
+from softgrip.simulator.simulation import Simulation
+from softgrip.simulator.step_size import LARGEST_STEP, STEPS, steps_for
 from softgrip.units import DEG
+from tests.simulator.rigs import design_1, printed_gripper
 
 COMMANDS = np.r_[np.full(20, 20.0), np.zeros(60)]
 STIFF = replace(

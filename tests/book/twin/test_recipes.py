@@ -18,8 +18,9 @@ from book.twin.laboratory import Laboratory
 from book.twin.recipes import FAST, measured
 from book.twin.space import values
 from softgrip.errors import UnknownNameError
-from softgrip.simulator.calibration import design_1, small_signal_poles
+from softgrip.simulator.small_signal import small_signal_poles
 from softgrip.units import DEG, GRAM_FORCE
+from tests.simulator.rigs import design_1
 
 LAB = Laboratory(values())
 LOG = 2e-3

@@ -1,7 +1,5 @@
 """The space holds the calibrated rig, and says what it expects of a line."""
 
-from dataclasses import astuple, fields
-
 import numpy as np
 import pytest
 
@@ -10,45 +8,8 @@ from book.twin import space as module
 from book.twin.pad_tests import layer_of, pad_of
 from book.twin.space import rows, space, values
 from softgrip.errors import DataFileError, InvalidInputError, UnknownNameError
-from softgrip.simulator import calibration
-from softgrip.simulator.force_layer import ForceLayer
-from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
-from softgrip.simulator.pad_parameters import PadParameters
-from softgrip.units import MM
 
 (TODAY,) = rows(values())
-
-
-def _same(made, known):
-    """Whether parameters agree, however deep; the file has nine digits."""
-    if isinstance(known, tuple):
-        assert len(made) == len(known)
-        for one, other in zip(made, known, strict=True):
-            _same(one, other)
-    elif isinstance(known, float):
-        assert made == pytest.approx(known, rel=1e-8)
-    else:
-        assert made == known
-
-
-@pytest.mark.parametrize(
-    ("made", "known"),
-    [
-        (rigs.design_1, calibration.design_1),
-        (rigs.design_2, calibration.design_2),
-        (rigs.design_3, calibration.design_3),
-        (rigs.gripper, printed_gripper),
-    ],
-)
-def test_the_file_has_the_calibrated_rigs(made, known):
-    _same(astuple(made(TODAY)), astuple(known()))
-
-
-def test_the_file_has_the_pad_the_layer_and_the_travel():
-    _same(astuple(layer_of(TODAY)), astuple(ForceLayer()))
-    for field in fields(PadParameters):
-        assert getattr(pad_of(TODAY), field.name) == getattr(PadParameters(), field.name)
-    assert TODAY["choice.gripper_travel"] * MM == pytest.approx(TRAVEL)
 
 
 def test_each_has_a_reason_and_ends_that_a_rig_can_have():
