@@ -8,6 +8,7 @@ finding. What the linear model loses is.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from math import nan
 
 import numpy as np
 from scipy.optimize import minimize
@@ -23,6 +24,7 @@ from book.chapter_5.step_models import (
 from softgrip.arrays import Floats
 from softgrip.dynamics.linear import second_order
 from softgrip.dynamics.second_order import SecondOrder, response
+from softgrip.errors import InvalidInputError
 from softgrip.kept import Kept
 from softgrip.logs.repeated_steps import StepTest
 from softgrip.simulator.chance import SEED
@@ -42,7 +44,8 @@ class SweepPoint:
         design: Chapter 5's name of the finger.
         angle: At which the median run ends, deg.
         linear, ludwick: Of the two models identified on the logs of the 60 deg test.
-        linear_again, ludwick_again: Of models identified anew on this very step.
+        linear_again, ludwick_again: Of models identified anew on this very step; NaN if it tells
+            none.
         linear_range: The largest, among the steps up to this one, of the one linear model that
             keeps it least.
         runs: Of the single runs: what the material's spread alone makes.
@@ -80,6 +83,14 @@ def one_for_all(tests: Sequence[StepTest], start: SecondOrder) -> tuple[SecondOr
     return system(found.x), float(found.fun)
 
 
+def _rms_again(test: StepTest, power: float) -> float:
+    """Return the RMS error of a model fitted to a test, rad; NaN if the test does not tell one."""
+    try:
+        return fit_test(test, power).rms
+    except InvalidInputError:
+        return nan
+
+
 def sweep() -> Iterator[SweepPoint]:
     """Simulate the steps and hold the models against them; takes a minute."""
     for design, rig in RIGS.items():
@@ -92,8 +103,8 @@ def sweep() -> Iterator[SweepPoint]:
             kept = [identified_at(design, kind) for kind in KINDS]
             errors = [
                 *(rms_error(model.response(test.time, test.pressure), test) for model in kept),
-                fit_test(test, 1.0).rms,
-                fit_test(test, FINGERS[design].estimated).rms,
+                _rms_again(test, 1.0),
+                _rms_again(test, FINGERS[design].estimated),
                 worst,
                 float(np.sqrt(np.mean((test.angles - test.angle) ** 2))),
             ]

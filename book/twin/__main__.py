@@ -9,19 +9,21 @@ import argparse
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from joblib import parallel_config
 
-from book.twin import kept_rigs, outcomes, study
+from book.twin import bands, kept_rigs, outcomes, study
 from book.twin.fit import fit
 from book.twin.laboratory import Laboratory
 from book.twin.recipes import FAST, SLOW, measured
 from book.twin.space import values
 from book.twin.targets import Target, targets
+from softgrip.kept import Kept
 
 STAGES = Path("book/_build/twin")
-COMMANDS = {"outcomes": outcomes.KEPT, **study.TABLES}
+COMMANDS: dict[str, Kept[Any]] = {"outcomes": outcomes.KEPT, "bands": bands.KEPT, **study.TABLES}
 NEAR = 10.0
 """Largest deviation, %, of a target that is counted as met."""
 

@@ -119,6 +119,17 @@ def settled(
     return np.where(found > time[-1] - END, np.inf, found)
 
 
+def responses(lab: Laboratory) -> dict[str, tuple[Floats, Floats]]:
+    """Return time, s, and angles, rad, (rigs, N), of regulator, PIDs and staircase, by name."""
+    controllers = {"lqr": _regulator(lab)} | {f"pid-{name}": _pid(lab, name) for name in PIDS}
+    found = {}
+    for name, controller in controllers.items():
+        step = lab[f"choice.{name.partition('-')[0]}_step"] * DEG
+        found[name] = _followed(lab, controller, step[:, None], DURATION)
+    stairs = stairs_of(lab)
+    return found | {"staircase": _followed(lab, _pid(lab, "full"), stairs, _length(stairs))}
+
+
 def _step(lab: Laboratory, controller: Controller, step: str, band: str) -> Measures:
     """Run a step, and return when it settles, s, and the size of what error is left, deg."""
     target = lab[step] * DEG
@@ -128,14 +139,17 @@ def _step(lab: Laboratory, controller: Controller, step: str, band: str) -> Meas
     return _told(lab, {"settling": settling, "error": left / DEG})
 
 
-def regulator(lab: Laboratory) -> Measures:
-    """Return settling time, s, and error, % of the step, of the regulator of Figure 3.12."""
+def _regulator(lab: Laboratory) -> Controller:
     finger, pump_gain = models(lab)
     # The printed frequency and damping; the static gain is the constant obtained by experiment.
     plant = finger.gain * pump_gain * input_gain(FINGER, 1.0, SPEED_LIMIT)
     gain = np.repeat(lqr_gain(FINGER, Weights())[:, None], lab.count, axis=1)
-    controller = StateFeedback(gain, plant, RobustDifferentiator(lab["choice.lqr_jerk"]))
-    found = _step(lab, controller, "choice.lqr_step", "choice.lqr_band")
+    return StateFeedback(gain, plant, RobustDifferentiator(lab["choice.lqr_jerk"]))
+
+
+def regulator(lab: Laboratory) -> Measures:
+    """Return settling time, s, and error, % of the step, of the regulator of Figure 3.12."""
+    found = _step(lab, _regulator(lab), "choice.lqr_step", "choice.lqr_band")
     return {**found, "error": 100 * found["error"] / lab["choice.lqr_step"]}
 
 
@@ -218,12 +232,24 @@ def lags(reference: Floats, angle: Floats) -> Floats:
     return np.asarray(np.argmax(along / np.sqrt(power - mean**2 / left), axis=1) * PERIOD)
 
 
+STAIRS = staircase(increment=1.0, top=6.0, hold=HOLD, period=PERIOD)
+"""Of one increment each, shape (N,)."""
+
+
+def stairs_of(lab: Laboratory) -> Floats:
+    """Return the staircases of Figure 4.7, rad, shape (rigs, N)."""
+    return np.asarray((lab["choice.stair_increment"] * DEG)[:, None] * STAIRS)
+
+
+def _length(reference: Floats) -> float:
+    return float((reference.shape[1] - 1) * PERIOD)
+
+
 def tracking(lab: Laboratory) -> Measures:
     """Return the delay of the angle behind the staircase of Figure 4.7, s."""
-    one = staircase(increment=1.0, top=6.0, hold=HOLD, period=PERIOD)
-    stairs = (lab["choice.stair_increment"] * DEG)[:, None] * one
-    _, angle = _followed(lab, _pid(lab, "full"), stairs, (one.size - 1) * PERIOD)
-    return _told(lab, {"lag": lags(one, angle)})
+    stairs = stairs_of(lab)
+    _, angle = _followed(lab, _pid(lab, "full"), stairs, _length(stairs))
+    return _told(lab, {"lag": lags(STAIRS, angle)})
 
 
 FAST = {
