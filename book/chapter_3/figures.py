@@ -14,6 +14,7 @@ from book.chapter_3.torque_and_bending import (
     blocked_torque,
     settled_angles,
 )
+from book.companion.band import LABEL, shade
 from book.companion.exhibit import figure
 from book.companion.style import (
     BLUE,
@@ -170,6 +171,7 @@ def figure_3_9() -> Figure:
         pressure / MPa, torque(optimum(), pressure), color=BLUE, label="Eq. (3.4), (E1) and (E2)"
     )
     tested = np.linspace(0, PUSHED_TO, 11)
+    shade(axes, "torque", GREY, label=LABEL)
     for name, rig in DESIGNS.items():
         buckling = BUCKLING_TORQUE.get(name, np.inf)
         found = blocked_torque(rig().finger, tested, buckling_torque=buckling)
@@ -197,6 +199,7 @@ def figure_3_10() -> Figure:
     for name, printed in zip(DESIGNS, (206, 201, 232), strict=True):
         axes.plot(tested / MPa, bent_on_rig(name, tested), **LOOK[name], label=f"{name}, simulated")
         axes.plot([BENT_TO / MPa], [printed], "o", ms=12, mfc="none", color=PRINTED)
+    shade(axes, "bending-1", GREY, label=LABEL)
     axes.set(xlabel="pressure (MPa)", ylabel="angle (deg)", ylim=(0, 500), xlim=(0, 0.157))
     axes.legend(loc="upper left", fontsize=8.5)
     return drawn

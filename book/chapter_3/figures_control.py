@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from book.chapter_3.regulators import designed_on, regulator
 from book.chapter_4.identified_model import identified_model
+from book.companion.band import LABEL, shade
 from book.companion.choices import choice
 from book.companion.exhibit import figure, table
 from book.companion.simulated_logs import STEP_DURATION
@@ -91,6 +92,8 @@ def figure_3_12(logs: tuple[Path | str, ...] = ()) -> Figure:
         found = limited_loop(finger, model.pump_gain, lqr_gain(finger, weights), step)
         rig = str(log.header.provenance)
         angle.plot(log["time"], log["reference"] / DEG, color=PRINTED, lw=1, label="reference")
+        if not logs and design == "printed":
+            shade(angle, "lqr", MEASURED, label=LABEL)
         angle.plot(log["time"], log["angle"] / DEG, color=MEASURED, lw=1, label=rig)
         angle.plot(found.time, found.measured / DEG, color=LINEAR, ls="--", label="own model")
         # A row of a log tells the command that was held until its time.

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from book.chapter_4.controllers import own_loop
 from book.chapter_4.identified_model import identified_model
 from book.chapter_4.pushed import filter_noise, pushed
+from book.companion.band import LABEL, shade
 from book.companion.claims import printed, printed_text
 from book.companion.exhibit import figure
 from book.companion.style import (
@@ -154,6 +155,8 @@ def figure_4_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     paths = logs or tuple(kept_log(name) for name in STEPS)
     titles = ("(a) designed on the finger alone", "(b) designed on finger and pump")
     for axes, path, design, title in zip(panels, paths, ("actuator", "full"), titles, strict=True):
+        if not logs:
+            shade(axes, f"pid-{design}", MEASURED, label=LABEL)
         _draw_log(axes, path, lw=1)
         found = own_loop(design)
         axes.plot(
@@ -177,9 +180,11 @@ def _draw_log(axes: Any, path: Path | str, *, lw: float | None) -> None:
 def figure_4_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the staircase; ``logs`` gives one of another rig."""
     drawn, axes = sheet(3.2)
+    if not logs:
+        shade(axes, "staircase", MEASURED, label=LABEL)
     _draw_log(axes, (logs or (kept_log("staircase"),))[0], lw=None)
     axes.set(xlabel="time (s)", ylabel="angle (deg)")
-    axes.legend(loc="upper right")
+    drawn.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return drawn
 
 

@@ -10,6 +10,7 @@ from book.chapter_5 import step_protocols, step_sweep
 from book.chapter_5.numbers import BOUND, printed_rms
 from book.chapter_5.step_models import ANGLES, FINGERS, KINDS, compare, identified_at, rms_error
 from book.chapter_5.step_protocols import stated_stiffness
+from book.companion.band import LABEL, shade
 from book.companion.exhibit import figure, table
 from book.companion.style import (
     BLUE,
@@ -64,7 +65,10 @@ def _draw(design: str, logs: tuple[Path | str, ...]) -> Figure:
     tests, models = compare(design, (paths[:half], paths[half:]))
     drawn = Figure(figsize=(WIDTH, 5.6))
     titles = (f"(a) {ANGLES[0]} deg, fitted to", f"(b) {ANGLES[1]} deg, predicted")
-    for axes, test, title in zip(drawn.subplots(2, 1, sharex=True), tests, titles, strict=True):
+    panels = drawn.subplots(2, 1, sharex=True)
+    for axes, test, title, angle in zip(panels, tests, titles, ANGLES, strict=True):
+        if not logs:
+            shade(axes, f"{FINGERS[design].logs}-{angle}", MEASURED, label=LABEL)
         for k, run in enumerate(test.angles):
             label = "" if k else "runs"
             axes.plot(test.time, run / DEG, color=GREY, lw=0.4, alpha=0.6, label=label)

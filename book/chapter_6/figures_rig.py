@@ -21,6 +21,7 @@ from book.chapter_6.results import (
     largest_weight,
     recovery,
 )
+from book.companion.band import LABEL, shade
 from book.companion.choices import choice
 from book.companion.exhibit import figure, table
 from book.companion.style import (
@@ -96,6 +97,8 @@ def figure_6_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     frequency = MODELLED
     identified_by_finger = each_identified(runs)
     for k, (side, colour, dash) in enumerate(SIDES):
+        if not logs:
+            shade(steps, f"open-{side}", colour, label="_band" if k else LABEL)
         _steps(steps, runs.time, runs.angles[:, k], colour, dash, side)
         weights.plot(*run_deviation(runs, k), ".", color=colour, ms=3, label=f"{side}, records")
         bound = model_deviation(identified_by_finger[k], frequency)
