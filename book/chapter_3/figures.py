@@ -8,7 +8,6 @@ from numpy.typing import ArrayLike
 
 from book.chapter_3.finger_drawing import draw_bent, draw_section
 from book.chapter_3.torque_and_bending import (
-    BUCKLING_TORQUE,
     DESIGNS,
     LENGTH,
     blocked_torque,
@@ -173,12 +172,10 @@ def figure_3_9() -> Figure:
     tested = np.linspace(0, PUSHED_TO, 11)
     shade(axes, "torque", GREY, label=LABEL)
     for name, rig in DESIGNS.items():
-        buckling = BUCKLING_TORQUE.get(name, np.inf)
-        found = blocked_torque(rig().finger, tested, buckling_torque=buckling)
+        found = blocked_torque(rig().finger, tested)
         axes.plot(tested / MPa, found, **LOOK[name], label=f"{name}, simulated")
-    axes.plot(
-        [PUSHED_TO / MPa], [0.359], "o", ms=12, mfc="none", color=PRINTED, label="printed, measured"
-    )
+    ring = {"ms": 12, "mfc": "none", "color": PRINTED, "label": "printed, measured"}
+    axes.plot([PUSHED_TO / MPa] * 2, [0.359, 0.15], "o", **ring)
     axes.set(xlabel="pressure (MPa)", ylabel="torque (N m)", ylim=(0, 0.56), xlim=(0, 0.26))
     axes.legend(loc="upper left")
     return drawn

@@ -64,7 +64,6 @@ def criteria() -> tuple[float, float, float]:
     return 0.02, 0.05, choice("lqr_band") / step_size()
 
 
-"""Of Table 3.C, as parts of the step."""
 RUNS = 100
 SHARE = (5, 95)
 """Of the runs, percent: between which a table says where they lie."""
@@ -100,7 +99,8 @@ def figure_3_12(logs: tuple[Path | str, ...] = ()) -> Figure:
         command.step(log["time"], log["command"] / SPEED_LIMIT, color=MEASURED, lw=0.7, where="pre")
         command.step(found.time, found.command / SPEED_LIMIT, color=LINEAR, ls="--", where="post")
         angle.axvline(PRINTED_TIME, color=GREY, ls=":")
-        angle.set(title=title, ylabel="angle (deg)", xlim=(0, 6), ylim=(-5, 80))
+        top = 1.05 * max(*log["angle"], *found.measured, step) / DEG
+        angle.set(title=title, ylabel="angle (deg)", xlim=(0, 6), ylim=(-5, top))
         command.set(ylabel="u", ylim=(-1.1, 1.1))
     panels[-1].set_xlabel("time (s)")
     drawn.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)

@@ -200,7 +200,7 @@ def optimum(
 
 @simulated
 def stepped_frequency(row: str) -> float:
-    """Return what second-order identification says of simulated steps to 60 deg, rad/s.
+    """Return what second-order identification says of simulated steps, rad/s.
 
     `row` is "row 1" to "row 4" of Table 3.2: a bare number would be read as printed.
     """

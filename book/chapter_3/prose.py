@@ -27,6 +27,7 @@ from book.chapter_3.figures_control import (
 )
 from book.chapter_3.numbers import lqr_settling_on_rig
 from book.chapter_3.numbers import optimum as best
+from book.chapter_3.stepped import frequency_step, identified_row, small_motions
 from book.chapter_3.torque_and_bending import DESIGNS, blocked_torque
 from book.companion.choices import choice
 from book.companion.verdict import recomputed
@@ -70,6 +71,10 @@ def _top(row: int) -> float:
 def _pushed() -> list[float]:
     """Return the torques of Table 3.1, N m, where their lines end."""
     return [float(torque(section, PUSHED_TO)) for section in table_3_1().values()]
+
+
+def _pushed_on_rig(design: str) -> float:
+    return float(blocked_torque(DESIGNS[design]().finger, PUSHED_TO))
 
 
 def _bent() -> list[float]:
@@ -131,6 +136,9 @@ WORDS = {
     "top_3_below": lambda: f"{best('top', [table_3_2()[2].low] * 2):.2f}",
     "top_4": lambda: f"{_top(4):.2f}",
     "confidence": lambda: f"{100 * CONFIDENCE:g}",
+    "frequency_step": lambda: f"{frequency_step() / DEG:.0f}",
+    "stepped": lambda: f"{identified_row(1).natural_frequency.value:.2f}",
+    "small_motions": lambda: f"{small_motions():.1f}",
     # Figures 3.5 and 3.9.
     "pushed_least": lambda: f"{min(_pushed()):.2f}",
     "pushed": lambda: f"{max(_pushed()):.2f}",
@@ -138,13 +146,17 @@ WORDS = {
     "deep_pushes": lambda: f"{_judged(1):.2f}",
     "middle_pushes": lambda: f"{_judged(2):.2f}",
     "shallow_pushes": lambda: f"{_judged(3):.2f}",
-    "rig_pushes": lambda: f"{blocked_torque(DESIGNS['Design 1(E1)']().finger, PUSHED_TO):.2f}",
+    "rig_pushes": lambda: f"{_pushed_on_rig('Design 1(E1)'):.2f}",
+    "soft_pushes": lambda: f"{_pushed_on_rig('Design 3(E2)'):.2f}",
     # Figures 3.6, 3.10 and 3.11.
     "bent_least": lambda: f"{min(_bent()):.0f}",
     "bent": lambda: f"{max(_bent()):.0f}",
     "bent_softer": lambda: f"{bent(optimum(), modulus=FX_PRO):.0f}",
     "one_chamber_bends": lambda: f"{judges()[0][1].angle * BENT_TO / DEG:.0f}",
     "rig_bends": lambda: f"{bent_on_rig('Design 1(E1)')[0]:.0f}",
+    "bent_on_rig": lambda: "{:.0f}, {:.0f} and {:.0f}".format(
+        *(bent_on_rig(design)[0] for design in DESIGNS)
+    ),
     "side_view": lambda: f"{BENT_TO / MPa / (SIDE_VIEWS - 1):.2f}",
     # Table 3.A and Figure 3.B.
     "script_bottom": lambda: f"{SCRIPT_BOUNDS.bottom[1] / MM:g}",

@@ -10,6 +10,7 @@ from softgrip.simulator.chance import SEED
 from softgrip.simulator.fitted_rigs import design_1
 from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.scaled_section import with_section
+from softgrip.simulator.small_signal import small_signal_poles
 from softgrip.simulator.steps import simulate_step_test, travel_to
 
 RUNS = 7
@@ -20,19 +21,19 @@ def rig_with(section: Section) -> RigParameters:
     return with_section(design_1(), section, printed_section("Opt. parameters"))
 
 
-def identified_step(rig: RigParameters, *, angle: float | None = None) -> Identified:
-    """Identify the mean of seven simulated steps, pressure to angle, as Section 3.4 does.
+def frequency_step() -> float:
+    """Return the step whose frequency is identified, rad: fitted, as none is printed."""
+    return choice("frequency_step")
 
-    Args:
-        rig: Its parameters.
-        angle: At which the median run ends, rad; None for the fitted one, as none is printed.
-    """
-    test = simulate_step_test(
-        rig,
-        travel_to(rig, choice("frequency_step") if angle is None else angle),
-        runs=RUNS,
-        seed=SEED,
-    )
+
+def small_motions() -> float:
+    """Return the natural frequency of Design 1 for small motions about that step's end, rad/s."""
+    return float(abs(small_signal_poles(design_1().finger, frequency_step())[0]))
+
+
+def identified_step(rig: RigParameters) -> Identified:
+    """Identify the mean of seven simulated steps, pressure to angle, as Section 3.4 does."""
+    test = simulate_step_test(rig, travel_to(rig, frequency_step()), runs=RUNS, seed=SEED)
     return identify(test.time, test.pressure, test.angle, initial_input=0.0)
 
 
