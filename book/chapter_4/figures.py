@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from book.chapter_4.controllers import own_loop
 from book.chapter_4.identified_model import identified_model
-from book.chapter_4.pushed import filter_noise, pushed
+from book.chapter_4.pushed import pushed
 from book.companion.band import LABEL, shade
 from book.companion.claims import printed, printed_text
 from book.companion.exhibit import figure
@@ -29,7 +29,7 @@ from softgrip.control.minimum_time import farthest
 from softgrip.dynamics.second_order import full_state_space
 from softgrip.logs.gaps import intervals
 from softgrip.logs.pump import pump_of
-from softgrip.logs.pushes import prior
+from softgrip.logs.pushes import prior, reference_noise
 from softgrip.logs.reader import kept_log, read_log
 from softgrip.provenance import Provenance, data_folder
 from softgrip.pump.capacity import estimate
@@ -103,27 +103,30 @@ def _draw_push(axes: Any, path: Path | str, name: str) -> None:
     models = (found.constant, found.modified, found.filtered)
     errors = ", ".join(f"{100 * found.error(model):+.0f}" for model in models)
     axes.set_title(f"{name}\n{errors} %", fontsize=9.5)
-    axes.set(xlabel="time (s)", ylabel="MPa", ylim=(0, 0.17))
+    axes.set(xlabel="time (s)", ylabel="MPa", ylim=(0, None))
 
 
 @figure("4.A", Provenance.SIMULATED)
 def figure_4_a() -> Figure:
     """Draw the capacity by the printed filter and by the one that measures pressure."""
     drawn = Figure(figsize=(WIDTH, 3.2))
-    push, hold = pushed(kept_log("push-a")), data_folder() / HOLD
+    noise, hold = reference_noise(), data_folder() / HOLD
+    push = pushed(kept_log("push-a"), noise)
     angle = read_log(kept_log("push-a"))["angle"]
     seen = push.estimated.capacity
     turned = open_loop_capacity(angle, 1.0, 0.0)
-    gain = float(turned @ (seen - push.capacity) / (turned @ turned))
+    # Where noise pushes the elastance below zero the filter has no capacity.
+    told = np.isfinite(seen)
+    gain = float(turned[told] @ (seen - push.capacity)[told] / (turned[told] @ turned[told]))
     first, second = drawn.subplots(1, 2, sharey=True)
     _draw_capacity(first, push.time, angle, seen, push.estimated.capacity_std, gain)
     log = read_log(hold)
     flow = pump_of(hold, log).displacement * log["command"]
-    model = ElastanceModel(log.header.period, filter_noise(), prior(push.capacity))
+    model = ElastanceModel(log.header.period, noise, prior(push.capacity))
     steps = intervals(log["time"], log.header.period)
     held = estimate(log["pressure"], flow, log["angle"], model, steps=steps)
     _draw_capacity(second, held.time, log["angle"], held.capacity, held.capacity_std, gain)
-    first.set(title="pushing", xlabel="time (s)", ylabel="capacity (mL/MPa)", ylim=(0, 2200))
+    first.set(title="pushing", xlabel="time (s)", ylabel="capacity (mL/MPa)", ylim=(0, 2600))
     second.set(title="holding 60 deg", xlabel="time (s)")
     first.legend(loc="upper left")
     return drawn
@@ -158,11 +161,11 @@ def figure_4_5(logs: tuple[Path | str, ...] = ()) -> Figure:
         if not logs:
             shade(axes, f"pid-{design}", MEASURED, label=LABEL)
         _draw_log(axes, path, lw=1)
-        found = own_loop(design)
+        found = own_loop(design, duration=15.0)
         axes.plot(
             found.time, np.ravel(found.measured) / DEG, color=LUDWICK, ls="--", label="own model"
         )
-        axes.set(title=title, ylabel="angle (deg)", xlim=(0, 15), ylim=(-5, 110))
+        axes.set(title=title, ylabel="angle (deg)", xlim=(0, 15), ylim=(-5, None))
     axes.set_xlabel("time (s)")
     drawn.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return drawn

@@ -12,9 +12,14 @@ ASSUMED = NoiseLevels(pressure_step=0.1479, elastance_step=9.72e7, sensor=532.5)
 likelihood on a push of the rig before the fit."""
 
 
-def pushed(path: Path | str) -> PressureComparison:
-    """Hold the three models against a log of a push, as `compare`, with the fitted choices."""
-    return compare(path, noise=filter_noise(), below=choice("capacity_below"))
+def pushed(path: Path | str, noise: NoiseLevels | None = None) -> PressureComparison:
+    """Hold the three models against a log of a push, as `compare`, with the fitted choices.
+
+    Args:
+        path: Of the log.
+        noise: Levels of the filter; None for `filter_noise`.
+    """
+    return compare(path, noise=noise or filter_noise(), below=choice("capacity_below"))
 
 
 def filter_noise() -> NoiseLevels:

@@ -25,7 +25,6 @@ from softgrip.simulator.fitted_rigs import design_1
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG
 
-
 STEP = step_size()
 
 

@@ -13,7 +13,7 @@ from book.chapter_3.torque_and_bending import (
 )
 from softgrip.errors import InvalidInputError
 from softgrip.simulator.simulation import Simulation
-from softgrip.units import DEG, MPa
+from softgrip.units import MPa
 
 PRINTED_ANGLES = {"Design 1(E1)": 206, "Design 2(E1)": 201, "Design 3(E2)": 232}
 
