@@ -197,7 +197,7 @@ def figure_3_10() -> Figure:
         axes.plot(tested / MPa, bent_on_rig(name, tested), **LOOK[name], label=f"{name}, simulated")
         axes.plot([BENT_TO / MPa], [printed], "o", ms=12, mfc="none", color=PRINTED)
     shade(axes, "bending-1", GREY, label=LABEL)
-    axes.set(xlabel="pressure (MPa)", ylabel="angle (deg)", ylim=(0, 500), xlim=(0, 0.157))
+    axes.set(xlabel="pressure (MPa)", ylabel="angle (deg)", ylim=(0, 640), xlim=(0, 0.157))
     axes.legend(loc="upper left", fontsize=8.5)
     return drawn
 

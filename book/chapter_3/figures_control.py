@@ -99,11 +99,10 @@ def figure_3_12(logs: tuple[Path | str, ...] = ()) -> Figure:
         command.step(log["time"], log["command"] / SPEED_LIMIT, color=MEASURED, lw=0.7, where="pre")
         command.step(found.time, found.command / SPEED_LIMIT, color=LINEAR, ls="--", where="post")
         angle.axvline(PRINTED_TIME, color=GREY, ls=":")
-        top = 1.05 * max(*log["angle"], *found.measured, step) / DEG
-        angle.set(title=title, ylabel="angle (deg)", xlim=(0, 6), ylim=(-5, top))
+        angle.set(title=title, ylabel="angle (deg)", xlim=(0, 6), ylim=(-5, None))
         command.set(ylabel="u", ylim=(-1.1, 1.1))
     panels[-1].set_xlabel("time (s)")
-    drawn.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    drawn.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return drawn
 
 

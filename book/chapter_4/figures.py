@@ -167,7 +167,7 @@ def figure_4_5(logs: tuple[Path | str, ...] = ()) -> Figure:
         )
         axes.set(title=title, ylabel="angle (deg)", xlim=(0, 15), ylim=(-5, None))
     axes.set_xlabel("time (s)")
-    drawn.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    drawn.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return drawn
 
 
@@ -187,7 +187,7 @@ def figure_4_7(logs: tuple[Path | str, ...] = ()) -> Figure:
         shade(axes, "staircase", MEASURED, label=LABEL)
     _draw_log(axes, (logs or (kept_log("staircase"),))[0], lw=None)
     axes.set(xlabel="time (s)", ylabel="angle (deg)")
-    drawn.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    drawn.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return drawn
 
 
