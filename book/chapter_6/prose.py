@@ -56,7 +56,6 @@ WORDS = {
     "excited_share": lambda: f"{100 * choice('excited_share'):.2g}",
     "high_speed": lambda: f"{speed.printed_speed('high'):.2g}",
     "slow_speed": lambda: f"{speed.printed_speed('low'):.2g}",
-    "slow_excited": lambda: f"{results.band('low-speed')[1]:.0f}",
     "speed_runs": lambda: f"{speed.RUNS}",
     "spread_at_rest": lambda: f"{numbers.spread_at_rest('high'):.1f}",
     "low_speed": lambda: f"{min(_weights()):g}",

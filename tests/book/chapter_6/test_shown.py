@@ -5,7 +5,6 @@ import pytest
 
 from book.chapter_6 import figures_model, figures_study, filters, results, shown
 from book.chapter_6.comparison import ENTRIES, criteria, judged
-from book.chapter_6.controllers import best_command, own_model
 from book.chapter_6.grasps import STIFFNESS, grasp
 from book.chapter_6.numbers import (
     settled_on_rig,
@@ -14,7 +13,7 @@ from book.chapter_6.numbers import (
     transient_difference_on_rig,
     volume_of_fingers,
 )
-from book.chapter_6.results import identified, identified_without_noise, logs_of
+from book.chapter_6.results import logs_of
 from book.chapter_6.speed import speeds
 from book.companion.claims import printed
 from softgrip.control.loop import SPEED_LIMIT
@@ -105,11 +104,6 @@ def test_weight_grows_as_the_push_slows_until_not_every_run_has_a_model():
     assert told[-1] == max(told) > told[0]
 
 
-def test_much_of_the_deviations_that_are_identified_is_noise_of_the_sensor():
-    noisy, quiet = map(results.bounds, (identified("open"), identified_without_noise()))
-    assert (quiet.max(axis=0) < 2 / 3 * noisy.max(axis=0)).all()
-
-
 def test_faster_filter_settles_later_than_the_slower_one_in_every_band():
     for band in criteria():
         assert settled_on_rig("2/s", band) < settled_on_rig("4.8/s", band)
@@ -128,10 +122,6 @@ def test_motor_slows_the_slower_filter_and_keeps_the_faster_one_from_swinging():
     swing = [np.median(judged("4.8/s", rig).overshoot) for rig in ("as it is", free)]
     assert 3 * swing[0] < swing[1]
     assert np.median(judged("4.8/s", free).peak) > 10 * SPEED_LIMIT
-
-
-def test_no_command_within_the_motor_settles_the_identified_model_by_the_printed_time():
-    assert best_command(own_model()).settling > printed("6.4-settling-fast")
 
 
 def test_slower_filter_rests_within_the_print_and_the_faster_one_would_without_noise():
