@@ -98,7 +98,7 @@ def test_capacity_of_a_fast_push_is_near_or_refused(path, name, count):
 def test_filtered_pressure_rises_over_a_gap_as_without_one(path, count):
     before = compare(push_log("push-b"))
     found = compare(without(path, push_log("push-b"), range(54, 54 + count)))
-    # Its elastance doubles in 20 rows; held at that before them, the model would end 3 % lower after 20 rows.
+    # Its elastance doubles in 20 rows; held at that before them, the model would end 3 % lower.
     assert found.filtered[-1] == pytest.approx(before.filtered[-1], rel=0.02)
 
 
