@@ -108,7 +108,7 @@ def figure_6_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     steps.set(title="(a) steps in open loop", xlabel="time (s)", ylabel="angle (deg)")
     steps.legend(loc="lower right")
     _bound(weights)
-    weights.set(xlim=(0.5, 80), ylim=(0.03, 30))
+    weights.set(xlim=(0.5, 80), ylim=(0.01, 30))
     drawn.legend(*weights.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return drawn
 
@@ -126,20 +126,25 @@ def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
         ("low speed", ORANGE, "--", gripper_speed.printed_speed("low")),
     )
     drawn, (steps, weights, errors) = sheet(7.4, 3, 1)
-    bins = np.arange(-6, 6.1, 0.75).tolist()
-    for runs, (label, colour, dash, speed) in zip(both, words, strict=True):
+    ends = [final_value(runs.time, runs.angles[:, 0], window=1.0) / DEG for runs in both]
+    rests = [
+        rest - rest.mean() if logs else spreads[speed].measured
+        for rest, (*_, speed) in zip(ends, words, strict=True)
+    ]
+    most = np.ceil(np.abs(np.concatenate(rests)).max())
+    bins = np.linspace(-most, most, 17).tolist()
+    for runs, found, (label, colour, dash, _) in zip(both, rests, words, strict=True):
         pushed = runs.time[np.flatnonzero(runs.commands[0])[-1]]
         _steps(steps, runs.time - pushed, runs.angles[:, 0], colour, dash, label)
         weights.plot(*run_deviation(runs, 0), ".", color=colour, ms=4, label=label)
-        rest = final_value(runs.time, runs.angles[:, 0], window=1.0) / DEG
-        found = rest - rest.mean() if logs else spreads[speed].measured
         look = {"color": colour, "ls": dash, "lw": 1.6, "histtype": "step"}
         errors.hist(found, bins, label=f"{label} ({found.std(ddof=1):.2f} deg)", **look)
     weights.axvspan(*PRINTED_BAND["6.5"], fill=False, ec=PRINTED, ls=":")
     steps.set(title="(a) steps of the left finger", ylabel="angle (deg)")
     steps.set_xlabel("time since the push ended (s)")
     _bound(weights)
-    errors.set(title="(c) errors at rest", xlabel="error (deg)", ylabel="runs", ylim=(0, 60))
+    errors.set(title="(c) errors at rest", xlabel="error (deg)", ylabel="runs")
+    errors.set_ylim(top=1.5 * errors.get_ylim()[1])  # leaves room for the legend
     errors.legend(loc="upper right")
     steps.legend(loc="lower right")
     return drawn

@@ -19,7 +19,7 @@ from softgrip.simulator.gripper_steps import push_commands
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import REV
 
-STEP = 0.0025
+STEP = 0.002
 """Of the integration, s; half of it changes no force by more than 2 % (a test measures it)."""
 SAMPLE = 0.02
 """Of what is kept, s; the controller sees each fifth."""

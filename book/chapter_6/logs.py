@@ -21,20 +21,22 @@ from softgrip.control.rig_controller import CommandSequence
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.simulator.fitted_rigs import GRIPPER, printed_gripper
 from softgrip.simulator.gripper_steps import OPEN_LOOP_DURATION
+from softgrip.simulator.laws import settled_torque
 
 RUNS = 7
 REST = 5.0
 """Time that a finger is given after a push, s."""
 PUSH_FROM, PUSH_UNTIL = 5.0, 5.5
 """s. Section 6.4 pushes at 1.4 s, when its fingers are at rest; here they rest later."""
-PUSH_TORQUE = -1e-3
-"""N m on the left finger (assumed): a fifth of what the air bends it with."""
+PUSH_SHARE = 0.2
+"""Of what the air bends the left finger with, at its target (assumed)."""
 
 
 def push_left(time: float) -> Floats:
     """Return the torque of a hand on the left finger, N m, shape (2, 1)."""
     pushed = PUSH_FROM - PERIOD / 2 < time < PUSH_UNTIL - PERIOD / 2
-    return np.array([[PUSH_TORQUE if pushed else 0.0], [0.0]])
+    held = settled_torque(_target()[0], printed_gripper().fingers[0])
+    return np.array([[-PUSH_SHARE * held * pushed], [0.0]])
 
 
 def low_speed_commands() -> Floats:

@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from book.twin import outcomes, study
+from book.twin import outcomes
 from book.twin.fitted import ensemble
-from book.twin.misfit import LOOPS, chosen
+from book.twin.misfit import chosen
 from book.twin.pictures import percents
 from book.twin.problem import MODEL_ERROR, error_of
 from book.twin.smoother import RIGS, ROUNDS
@@ -53,9 +53,7 @@ WORDS: dict[str, Callable[[], str]] = {
     "near_before": lambda: _within("before", 10),
     "near_best": lambda: _within("best", 10),
     "compared": lambda: f"{percents('best').size}",
-    "met_before": lambda: f"{_met('before')}",
     "met_best": lambda: f"{_met('best')}",
-    "together": lambda: _count("together"),
     "alone": lambda: _count("alone"),
     "out": lambda: _count("out of reach"),
     "power_low": lambda: _power(5),
@@ -63,6 +61,4 @@ WORDS: dict[str, Callable[[], str]] = {
     "rigs": lambda: f"{RIGS}",
     "rounds": lambda: f"{ROUNDS}",
     "kept": lambda: f"{len(ensemble())}",
-    "loops": lambda: f"{LOOPS}",
-    "dropped": lambda: f"{len(study.TABLES['tension'].read())}",
 }

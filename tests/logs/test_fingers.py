@@ -7,10 +7,11 @@ import pytest
 
 from book.chapter_6 import results
 from book.chapter_6 import speed as gripper_speed
-from book.chapter_6.comparison import CRITERIA, judged
+from book.chapter_6.comparison import ENTRIES, criteria, judged
 from book.chapter_6.controllers import best_command, own_model, printed_model, target_angles
 from book.chapter_6.grasps import STEP, grasp
 from book.chapter_6.logs import LOGS, names_of
+from book.companion.claims import printed
 from book.companion.simulated_logs import make
 from softgrip.control.state_feedback import SPEED_DIGITS
 from softgrip.dynamics.second_order import SecondOrder, response
@@ -95,9 +96,9 @@ def test_steps_without_noise_identify_fingers_near_the_printed_plant():
     # Of the example rig, which was tuned to them by hand.
     angles, found = step_identifies(printed_gripper(spread=False), 6.94 * MM)
     np.testing.assert_allclose(angles[:, 0], np.array([50, 39.5]) * DEG, rtol=2e-3)
-    for (one,), printed in zip(found, (LEFT, RIGHT), strict=True):
-        assert one.damping == pytest.approx(printed.damping, rel=2e-3)
-        assert one.stiffness == pytest.approx(printed.stiffness, rel=2e-3)
+    for (one,), finger in zip(found, (LEFT, RIGHT), strict=True):
+        assert one.damping == pytest.approx(finger.damping, rel=2e-3)
+        assert one.stiffness == pytest.approx(finger.stiffness, rel=2e-3)
 
 
 def test_masses_of_the_two_fingers_are_almost_the_same_only_by_our_reading():
@@ -108,15 +109,15 @@ def test_masses_of_the_two_fingers_are_almost_the_same_only_by_our_reading():
     assert ratio * RIGHT.stiffness / LEFT.stiffness == pytest.approx(1.49, abs=0.01)
 
 
-def test_noise_of_the_sensor_makes_most_of_the_deviations_of_seven_runs():
+def test_noise_of_the_sensor_makes_a_third_of_the_deviations_of_seven_runs():
+    """Of the larger of the two fingers, which is what the text has."""
     noisy, quiet = (
         results.bounds(results.identified("open")),
         results.bounds(results.identified_without_noise()),
     )
     assert all(len(runs) == 7 for runs in results.identified("open"))
-    assert (noisy > 1.5 * quiet).all()
-    assert (quiet[:, 1] > 0.059).all()
-    assert (noisy[:, 1] > 2 * 0.059).all()
+    assert (noisy > quiet).all()
+    assert (noisy.max(axis=0) > 1.5 * quiet.max(axis=0)).all()
 
 
 def test_speed_file_is_made_again_and_shows_no_effect_of_speed():
@@ -128,17 +129,17 @@ def test_speed_file_is_made_again_and_shows_no_effect_of_speed():
     deviations = [spread.true.std(ddof=1) for spread in kept]
     # The same runs at each speed: what is compared is not chance.
     assert np.ptp(deviations) < 0.05
-    assert 1.14 < min(deviations) < max(deviations) < 2.41
+    assert max(deviations) < printed("6.4-spread-low-speed")
 
 
 def test_best_possible_command_cannot_settle_the_model_in_the_printed_time():
     # On the model that the logs identify, within 5 rev/s, whatever the controller: both fingers
-    # stay within 2 % from then on.
-    assert best_command(own_model()).settling == pytest.approx(1.6)
-    assert np.median(judged("optimal feedforward").settling["10 %"]) > 1.1
-    assert np.median(judged("2/s").settling["10 %"]) > 1.1
-    assert np.median(judged("4.8/s").settling["10 %"]) > 0.7
-    assert set(judged("open loop").settling) == set(CRITERIA)
+    # stay within 2 % from then on. On the rig no controller is as fast in the widest band either.
+    fast = printed("6.4-settling-fast")
+    assert best_command(own_model()).settling > fast
+    for name in ENTRIES:
+        assert np.median(judged(name).settling["10 %"]) > 1.2 * fast
+    assert set(judged("open loop").settling) == set(criteria())
 
 
 def test_a_push_is_worked_off_but_moves_the_other_finger_too():
