@@ -259,8 +259,8 @@ def test_run_to_run_spread_is_the_printed_one():
 
 def test_constant_capacity_cannot_lie_above_a_closed_syringe():
     # The text has it 30 % above the truth at high pressure. The capacity at the start is at least
-    # V_0 / P_atm, so that a model tangent there passes the gauge pressure p only when the plunger has
-    # swept p V_0 / P_atm: from p = P_atm on, more than all the air that there was.
+    # V_0 / P_atm, so that a model tangent there passes the gauge pressure p only when the plunger
+    # has swept p V_0 / P_atm: from p = P_atm on, more than all the air that there was.
     reached = 0
     for ballooning in (0.0, 6e-12, 1e-10, 4e-10):
         finger = replace(CALM.finger, ballooning=ballooning)
