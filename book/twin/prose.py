@@ -9,6 +9,7 @@ from book.twin.fitted import ensemble
 from book.twin.misfit import LOOPS, chosen
 from book.twin.pictures import percents
 from book.twin.problem import MODEL_ERROR, error_of
+from book.twin.recipes import ALL
 from book.twin.smoother import RIGS, ROUNDS
 from book.twin.space import space
 from book.twin.targets import targets
@@ -24,7 +25,7 @@ def _within(name: str, percent: float) -> str:
 
 def _met(name: str) -> int:
     """Return how many targets a rig meets within their errors."""
-    pairs = zip(outcomes.KEPT.read(), chosen(), strict=True)
+    pairs = zip(outcomes.KEPT.read(), chosen(ALL), strict=True)
     off = [(abs(getattr(one, name) - t.value) / t.tolerance, error_of(t)) for one, t in pairs]
     return sum(miss <= error for miss, error in off)
 

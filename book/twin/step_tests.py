@@ -125,6 +125,15 @@ def linear_range(lab: Laboratory) -> Measures:
     over the steps up to this one is least.
     """
     bound = lab["choice.linear_bound"]
+    return {name: reached(errors, bound) for name, errors in linear_errors(lab, bound).items()}
+
+
+def linear_errors(lab: Laboratory, bound: Floats) -> Measures:
+    """Return the errors of the linear models for all steps of 0, 10, 20, ... deg and less, deg.
+
+    By design, shape (steps, rigs): up to where all pass their bound, deg, shape (rigs,). Rising: a
+    larger step makes no error smaller.
+    """
     found: Measures = {}
     for design, (make, _) in DESIGNS.items():
         tests: list[Records] = []
@@ -134,13 +143,17 @@ def linear_range(lab: Laboratory) -> Measures:
             errors.append(least_largest_error(tests) / DEG)
             if level == LEVELS or (errors[-1] > bound).all():
                 break
-        risen = np.maximum.accumulate(errors, axis=0)
-        levels = LEVEL * np.arange(len(risen))
-        # Where the error does not pass the bound the range is the largest that was tried.
-        found[design] = np.array(
-            [np.interp(b, e, levels) for b, e in zip(bound, risen.T, strict=True)]
-        )
+        found[design] = np.maximum.accumulate(errors, axis=0)
     return found
+
+
+def reached(errors: Floats, bound: Floats) -> Floats:
+    """Return the steps at which `linear_errors` pass bounds, deg, shape (rigs,).
+
+    Where they do not it is the largest that was tried.
+    """
+    levels = LEVEL * np.arange(len(errors))
+    return np.array([np.interp(b, e, levels) for b, e in zip(bound, errors.T, strict=True)])
 
 
 def least_largest_error(tests: list[Records]) -> Floats:
