@@ -1,7 +1,8 @@
 """The one rig that comes nearest to as many targets as can be: an evolution strategy.
 
-CMA-ES (Hansen, arXiv:1604.00772) by the library `cma`, from where the smoother ended. The
-loss is robust: what cannot be met at all counts by a bound, and does not draw the rest along.
+CMA-ES (Hansen, arXiv:1604.00772) by the library `cma`, from where the smoother or an earlier
+search ended. The loss is robust: what cannot be met at all counts by a bound, and does not draw the
+rest along.
 """
 
 import pickle

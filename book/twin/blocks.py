@@ -41,8 +41,8 @@ class Block:
 PAD = ("pad elements", "kinds")
 BLOCKS: Mapping[str, Block] = MappingProxyType(
     {
-        "rig": Block(tuple(name for name in FAST if name not in PAD), RIGS, ROUNDS, 100, 96),
-        "pad": Block(PAD, 64, 4, 2, 16),
+        "rig": Block(tuple(name for name in FAST if name not in PAD), RIGS, ROUNDS, 10, 96),
+        "pad": Block(PAD, 64, 3, 0, 16),
     }
 )
 

@@ -51,7 +51,8 @@ def ranges(rows: Floats) -> Ranges:
     """Try the bounds on rigs, rows in the order of `space`, shape (rigs, parameters)."""
     bounds = space()[NAME].at(np.linspace(0, 1, TRIED))
     wanted = chosen(SLOW)
-    errors = linear_errors(laboratory(rows), np.full(len(rows), bounds[-1]))
+    with np.errstate(all="ignore"):  # a step that no finger reaches identifies nothing
+        errors = linear_errors(laboratory(rows), np.full(len(rows), bounds[-1]))
     off = [
         one.off(np.stack([reached(errors[one.quantity], np.full(len(rows), b)) for b in bounds]))
         / one.tolerance

@@ -6,13 +6,14 @@ import numpy as np
 
 from book.twin import outcomes, study
 from book.twin.blocks import BLOCKS
-from book.twin.fitted import ensemble
+from book.twin.fitted import best_rig, ensemble
 from book.twin.misfit import LOOPS, chosen
 from book.twin.pictures import percents
 from book.twin.problem import MODEL_ERROR, error_of
 from book.twin.smoother import RIGS, ROUNDS
 from book.twin.space import space
 from book.twin.targets import Target, targets
+from softgrip.units import DEG
 
 
 def _median(name: str) -> str:
@@ -31,6 +32,10 @@ def _met(name: str, of: Collection[Target]) -> int:
 
 def _outcome(target: str) -> outcomes.Outcome:
     return next(one for one in outcomes.KEPT.read() if one.id == target)
+
+
+def _degrees(angle: float) -> str:
+    return f"{angle / DEG:.1f}"
 
 
 def _asked(block: str) -> tuple[Target, ...]:
@@ -59,6 +64,8 @@ WORDS: dict[str, Callable[[], str]] = {
     "pad_rounds": lambda: f"{BLOCKS['pad'].rounds}",
     "single_before": lambda: f"{_outcome('2.3-single-training').before:.0f}",
     "single_best": lambda: f"{_outcome('2.3-single-training').best:.0f}",
+    "tilt_before": lambda: _degrees(space()["pad.tilt"].value),
+    "tilt_best": lambda: _degrees(best_rig()[[*space()].index("pad.tilt")]),
     "pad_met": lambda: f"{_met('best', _asked('pad'))}",
     "parameters": lambda: f"{len(_fitted())}",
     "choices": lambda: f"{sum(name.startswith('choice.') for name in _fitted())}",
