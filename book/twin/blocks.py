@@ -42,7 +42,7 @@ PAD = ("pad elements", "kinds")
 BLOCKS: Mapping[str, Block] = MappingProxyType(
     {
         "rig": Block(tuple(name for name in FAST if name not in PAD), RIGS, ROUNDS, 10, 96),
-        "pad": Block(PAD, 64, 3, 0, 16),
+        "pad": Block(PAD, 64, 3, 6, 12),
     }
 )
 

@@ -64,6 +64,7 @@ def fit(folder: Path, *, jobs: int | None = None) -> None:
         f"{name}: {b.rigs} rigs in {b.rounds} rounds, then {b.generations} generations of {b.brood}"
         for name, b in BLOCKS.items()
     )
+    notes += "\nthe generations begin at the best rig of the fit before, where that is better"
     notes += "\ncolumns in the units of space.csv"
     fitted.keep(fitted.BEST, rigs[:1], notes)
     fitted.keep(fitted.ENSEMBLE, rigs[1:], notes)
