@@ -8,6 +8,7 @@ import numpy as np
 from book.twin.fitted import best_rig, ensemble, nearest
 from book.twin.misfit import chosen, misfit
 from book.twin.problem import error_of
+from book.twin.recipes import ALL
 from book.twin.space import space
 from book.twin.targets import Target
 from softgrip.arrays import Floats
@@ -67,14 +68,19 @@ def judged(target: Target, before: float, best: float, several: Floats, nearest:
 
 
 def outcomes(jobs: int | None = None) -> list[Outcome]:
-    """Run the kept rigs and judge each target of the fast experiments."""
+    """Run the kept rigs and judge each target."""
     before = np.array([one.value for one in space().values()])
-    rigs = np.concatenate([before[None], best_rig()[None], ensemble(), nearest()])
-    off = misfit(rigs, jobs=jobs)
-    (was, best), several, near = np.split(off, [2, 2 + len(ensemble())])
+    rigs = np.concatenate([before[None], best_rig()[None], ensemble()])
+    wanted = chosen(ALL)
+    off, near = misfit(rigs, experiments=ALL, jobs=jobs), np.empty(len(wanted))
+    for name in ALL:
+        # The rig nearest to a target need do no other experiment.
+        own = [k for k, target in enumerate(wanted) if target.experiment == name]
+        near[own] = np.diag(misfit(nearest()[own], experiments=[name], jobs=jobs))
+    was, best, several = off[0], off[1], off[2:]
     return [
-        judged(target, float(was[k]), float(best[k]), several[:, k], float(near[k, k]))
-        for k, target in enumerate(chosen())
+        judged(target, float(was[k]), float(best[k]), several[:, k], float(near[k]))
+        for k, target in enumerate(wanted)
     ]
 
 

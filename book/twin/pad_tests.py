@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from sklearn.model_selection import StratifiedKFold
 
 from book.twin.laboratory import Laboratory
 from book.twin.rigs import Row
@@ -17,10 +18,12 @@ from softgrip.arrays import Floats
 from softgrip.simulator.chance import SEED, streams
 from softgrip.simulator.force_layer import ForceLayer
 from softgrip.simulator.force_tests import put_down, weight_forces
-from softgrip.simulator.pad import convert, make_pad, press, to_volts, voltages
+from softgrip.simulator.pad import convert, make_pad, to_volts, voltages
+from softgrip.simulator.pad_contact import bed_points, element_forces, spring_stiffness
 from softgrip.simulator.pad_hand import FULL
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_range import NOISES
+from softgrip.simulator.pad_surface import gap
 from softgrip.simulator.pad_tests import BETWEEN, PAD_SEED, PAD_TESTS, PadTest, draw_contacts
 from softgrip.tactile.contact_kind import bagged_neighbours, classifiers, nearest_neighbours
 from softgrip.tactile.contact_pose import place_errors
@@ -29,7 +32,13 @@ from softgrip.tactile.element import Element
 from softgrip.tactile.element_sensitivity import AT_REST, CEILING
 from softgrip.tactile.force import table_2_2
 from softgrip.tactile.friction import lift_force, printed_grasps
-from softgrip.tactile.kind_evaluation import accuracy, right_on_new, split_score
+from softgrip.tactile.kind_evaluation import (
+    FOLDS,
+    accuracy,
+    right_on_new,
+    split_score,
+    train_and_test,
+)
 from softgrip.tactile.nadaraya_watson import FINEST, STEPS
 from softgrip.units import GRAM_FORCE
 
@@ -72,10 +81,16 @@ def felt(test: PadTest, parameters: PadParameters) -> Contacts:
 
     rest = read(np.zeros(ELEMENTS))[:ELEMENTS]
     full = np.array([read(FULL * one)[k] for k, one in enumerate(np.eye(ELEMENTS))])
-    drawn, volts, times = [], [], []
+    points, drawn, gaps = bed_points(parameters), [], []
     for item, pose, force in draw_contacts(test, parameters.tilt, laid):
         drawn.append((item, pose, force))
-        volts.append(read(press(pad, item, pose, force, laid)))
+        gaps.append(gap(item, pose, points, laid) - pad.height[:, None])
+    # As `simulator.pad.press`, of all contacts at once.
+    springs = np.array([spring_stiffness(parameters, item.softness) for item, _, _ in drawn])
+    shares = np.array([force for _, _, force in drawn])
+    volts, times = [], []
+    for forces in element_forces(np.array(gaps), springs, pad.compliance, shares):
+        volts.append(read(forces))
         times.append(BETWEEN * count)
     seen = np.array(volts)
     return Contacts(
@@ -86,15 +101,16 @@ def felt(test: PadTest, parameters: PadParameters) -> Contacts:
         objects=np.array([item.name for item, _, _ in drawn]),
         places=np.array([pose.place for _, pose, _ in drawn]),
         angles=np.array([p.angle if item.kind == "line" else np.nan for item, p, _ in drawn]),
-        forces=np.array([force for _, _, force in drawn]),
+        forces=shares,
     )
 
 
 def _columns(lab: Laboratory, measure: Callable[[Row], dict[str, float]]) -> Measures:
-    """Measure each pad by itself."""
-    own = {name: lab[name] for name in lab.values if name.startswith(("pad.", "layer."))}
-    found = [measure(row) for row in rows(own)]
-    return {name: np.array([one[name] for one in found]) for name in found[0]}
+    """Measure each pad by itself, and those that are alike once."""
+    own = {name: lab[name] for name in lab.values if name.startswith("pad.")}
+    pads, which = np.unique(np.stack([*own.values()], axis=1), axis=0, return_inverse=True)
+    found = [measure(row) for row in rows(dict(zip(own, pads.T, strict=True)))]
+    return {name: np.array([one[name] for one in found])[which] for name in found[0]}
 
 
 def elements(lab: Laboratory) -> Measures:
@@ -214,7 +230,7 @@ def _kinds(parameters: PadParameters, splits: int) -> dict[str, float]:
         return 100 * accuracy(right).share
 
     by_name = {name: _scores(training, _named(name), splits) for name in classifiers()}
-    by_k = [_scores(training, _of_k(k), splits)[0] for k in NEIGHBOURS]
+    by_k = np.mean([right_by_k(training, seed) for seed in range(splits)], axis=0)
     others = [found for name, found in by_name.items() if name not in (SINGLE, BAGGED)]
     accuracies = {"single": by_name[SINGLE], "bagged": by_name[BAGGED]}
     accuracies["others"] = tuple(np.max(others, axis=0).tolist())
@@ -236,8 +252,21 @@ def _named(name: str) -> Callable[[int], Any]:
     return lambda seed: classifiers(seed)[name]
 
 
-def _of_k(k: int) -> Callable[[int], Any]:
-    return lambda _: nearest_neighbours(k)
+def right_by_k(felt: Contacts, seed: int) -> Floats:
+    """Return `kind_evaluation.split_score`'s share cross-validated, for each of `NEIGHBOURS`.
+
+    The neighbours of the largest k are sought once: the first of them are those of the others.
+    """
+    train, _ = train_and_test(felt.kinds, seed=seed)
+    x, labels = felt.responses[train], felt.kinds[train]
+    codes = labels[:, None] == np.unique(labels)
+    right = np.empty((labels.size, len(NEIGHBOURS)))
+    for known, left in StratifiedKFold(FOLDS, shuffle=True, random_state=seed).split(x, labels):
+        model = nearest_neighbours(NEIGHBOURS[-1]).fit(x[known], labels[known])
+        near = model[-1].kneighbors(model[:-1].transform(x[left]), return_distance=False)
+        told = np.cumsum(codes[known][near], axis=1).argmax(axis=2)
+        right[left] = told == codes[left].argmax(axis=1)[:, None]
+    return np.asarray(right.mean(axis=0))
 
 
 def _scores(felt: Contacts, make: Callable[[int], Any], splits: int) -> tuple[float, ...]:

@@ -11,6 +11,7 @@ from book.companion.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, sh
 from book.twin import outcomes, study
 from book.twin.fitted import best_rig, ensemble
 from book.twin.misfit import chosen
+from book.twin.recipes import ALL
 from book.twin.space import Parameter, space
 from softgrip.arrays import Floats
 
@@ -26,7 +27,7 @@ def percents(name: str) -> Floats:
     Args:
         name: A field of `outcomes.Outcome`: "before", "best" or "nearest".
     """
-    pairs = zip(outcomes.KEPT.read(), chosen(), strict=True)
+    pairs = zip(outcomes.KEPT.read(), chosen(ALL), strict=True)
     found = [
         100 * abs(getattr(one, name) / target.value - 1) for one, target in pairs if target.value
     ]

@@ -5,9 +5,10 @@ share of the declared range: before any target is looked at all of the range is 
 leaves it.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
+from types import MappingProxyType
 
 import numpy as np
 from scipy.special import ndtr, ndtri
@@ -32,6 +33,10 @@ FURTHEST = 5.0
 
 POINTS = 8
 """Rigs about which it is tried what moves what: at one, an experiment may fail and tell nothing."""
+
+DECLARED = MappingProxyType({"kinds": "pad."})
+"""Experiments of which it takes too long to try what moves them, and the group of the parameters
+that they look at."""
 
 SEEN = 1e-6
 """Tolerances: what moves a target by less is rounding, which hangs on the other rigs of a part."""
@@ -61,9 +66,17 @@ def values_at(parameters: Collection[Parameter], shares: Floats) -> Floats:
 def moves(experiments: tuple[str, ...], jobs: int | None = None) -> Flags:
     """Return which free parameter moves which target, shape (sought, targets): by trying.
 
-    Each is moved by itself, about some rigs that are spread over the space.
+    Each is moved by itself, about some rigs that are spread over the space; but what is `DECLARED`.
     """
-    free = sought()
+    free, wanted = sought(), chosen(experiments)
+    groups = [DECLARED.get(one.experiment) for one in wanted]
+    found = np.array([[g is not None and p.name.startswith(g) for g in groups] for p in free])
+    if tried := tuple(name for name in experiments if name not in DECLARED):
+        found[:, [group is None for group in groups]] = _tried(free, tried, jobs)
+    return found
+
+
+def _tried(free: Sequence[Parameter], experiments: tuple[str, ...], jobs: int | None) -> Flags:
     shares = qmc.Sobol(2 * len(free), rng=1).random(POINTS)
     about, other = shares[:, : len(free)], shares[:, len(free) :]
     one = np.eye(len(free), dtype=bool)[None]

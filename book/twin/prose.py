@@ -1,17 +1,19 @@
 """Computed numbers in the prose of the page *One rig for all numbers*."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 import numpy as np
 
 from book.twin import outcomes
-from book.twin.fitted import ensemble
+from book.twin.blocks import BLOCKS
+from book.twin.fitted import best_rig, ensemble
 from book.twin.misfit import chosen
 from book.twin.pictures import percents
 from book.twin.problem import MODEL_ERROR, error_of
 from book.twin.smoother import RIGS, ROUNDS
 from book.twin.space import space
-from book.twin.targets import targets
+from book.twin.targets import Target, targets
+from softgrip.units import DEG
 
 
 def _median(name: str) -> str:
@@ -22,11 +24,22 @@ def _within(name: str, percent: float) -> str:
     return f"{np.sum(percents(name) <= percent)}"
 
 
-def _met(name: str) -> int:
+def _met(name: str, of: Collection[Target]) -> int:
     """Return how many targets a rig meets within their errors."""
-    pairs = zip(outcomes.KEPT.read(), chosen(), strict=True)
-    off = [(abs(getattr(one, name) - t.value) / t.tolerance, error_of(t)) for one, t in pairs]
+    off = [(abs(getattr(_outcome(t.id), name) - t.value) / t.tolerance, error_of(t)) for t in of]
     return sum(miss <= error for miss, error in off)
+
+
+def _outcome(target: str) -> outcomes.Outcome:
+    return next(one for one in outcomes.KEPT.read() if one.id == target)
+
+
+def _degrees(angle: float) -> str:
+    return f"{angle / DEG:.1f}"
+
+
+def _asked(block: str) -> tuple[Target, ...]:
+    return chosen(BLOCKS[block].experiments)
 
 
 def _count(word: str) -> str:
@@ -44,7 +57,16 @@ def _power(percent: float) -> str:
 
 WORDS: dict[str, Callable[[], str]] = {
     "targets": lambda: f"{len(targets())}",
-    "asked": lambda: f"{len(chosen())}",
+    "fitted": lambda: f"{len(_asked('rig')) + len(_asked('pad'))}",
+    "pad_targets": lambda: f"{len(_asked('pad'))}",
+    "linear_targets": lambda: f"{len(chosen(['linear range']))}",
+    "pad_rigs": lambda: f"{BLOCKS['pad'].rigs}",
+    "pad_rounds": lambda: f"{BLOCKS['pad'].rounds}",
+    "single_before": lambda: f"{_outcome('2.3-single-training').before:.0f}",
+    "single_best": lambda: f"{_outcome('2.3-single-training').best:.0f}",
+    "tilt_before": lambda: _degrees(space()["pad.tilt"].value),
+    "tilt_best": lambda: _degrees(best_rig()[[*space()].index("pad.tilt")]),
+    "pad_met": lambda: f"{_met('best', _asked('pad'))}",
     "parameters": lambda: f"{len(_fitted())}",
     "choices": lambda: f"{sum(name.startswith('choice.') for name in _fitted())}",
     "model_error": lambda: f"{100 * MODEL_ERROR:.0f}",
@@ -53,7 +75,7 @@ WORDS: dict[str, Callable[[], str]] = {
     "near_before": lambda: _within("before", 10),
     "near_best": lambda: _within("best", 10),
     "compared": lambda: f"{percents('best').size}",
-    "met_best": lambda: f"{_met('best')}",
+    "met_best": lambda: f"{_met('best', targets())}",
     "alone": lambda: _count("alone"),
     "out": lambda: _count("out of reach"),
     "power_low": lambda: _power(5),

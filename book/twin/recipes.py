@@ -27,7 +27,8 @@ FAST: Mapping[str, Recipe] = MappingProxyType(
 )
 """Some seconds for one rig, and little more for several."""
 SLOW: Mapping[str, Recipe] = MappingProxyType(step_tests.SLOW | pad_tests.SLOW)
-"""A minute or two for one rig."""
+"""Up to some seconds for each rig."""
+ALL: Mapping[str, Recipe] = MappingProxyType({**FAST, **SLOW})
 
 
 def measured(lab: Laboratory, experiments: Iterable[str] = FAST) -> dict[tuple[str, str], Floats]:
@@ -35,7 +36,7 @@ def measured(lab: Laboratory, experiments: Iterable[str] = FAST) -> dict[tuple[s
 
     Args:
         lab: Its rigs and choices.
-        experiments: Names in `FAST` or `SLOW`.
+        experiments: Names in `ALL`.
 
     Returns:
         dict: By experiment and quantity, shape (rigs,).
@@ -43,10 +44,9 @@ def measured(lab: Laboratory, experiments: Iterable[str] = FAST) -> dict[tuple[s
     Raises:
         UnknownNameError: If there is no such experiment.
     """
-    known = {**FAST, **SLOW}
     found: dict[tuple[str, str], Floats] = {}
     for name in experiments:
-        if name not in known:
-            raise UnknownNameError("experiment", name, list(known))
-        found |= {(name, quantity): values for quantity, values in known[name](lab).items()}
+        if name not in ALL:
+            raise UnknownNameError("experiment", name, list(ALL))
+        found |= {(name, quantity): values for quantity, values in ALL[name](lab).items()}
     return found

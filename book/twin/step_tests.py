@@ -116,6 +116,8 @@ LEVEL, LEVELS = 10, 14
 """Distance of the steps that `linear_range` tries, deg, and their number."""
 WEIGHINGS = 30
 """Of the tests, until the largest error of one model for all is least."""
+GAP = 0.005
+"""Share by which it may be above the least."""
 
 
 def linear_range(lab: Laboratory) -> Measures:
@@ -125,6 +127,15 @@ def linear_range(lab: Laboratory) -> Measures:
     over the steps up to this one is least.
     """
     bound = lab["choice.linear_bound"]
+    return {name: reached(errors, bound) for name, errors in linear_errors(lab, bound).items()}
+
+
+def linear_errors(lab: Laboratory, bound: Floats) -> Measures:
+    """Return the errors of the linear models for all steps of 0, 10, 20, ... deg and less, deg.
+
+    By design, shape (steps, rigs): up to where all pass their bound, deg, shape (rigs,). Rising: a
+    larger step makes no error smaller.
+    """
     found: Measures = {}
     for design, (make, _) in DESIGNS.items():
         tests: list[Records] = []
@@ -134,13 +145,17 @@ def linear_range(lab: Laboratory) -> Measures:
             errors.append(least_largest_error(tests) / DEG)
             if level == LEVELS or (errors[-1] > bound).all():
                 break
-        risen = np.maximum.accumulate(errors, axis=0)
-        levels = LEVEL * np.arange(len(risen))
-        # Where the error does not pass the bound the range is the largest that was tried.
-        found[design] = np.array(
-            [np.interp(b, e, levels) for b, e in zip(bound, risen.T, strict=True)]
-        )
+        found[design] = np.maximum.accumulate(errors, axis=0)
     return found
+
+
+def reached(errors: Floats, bound: Floats) -> Floats:
+    """Return the steps at which `linear_errors` pass bounds, deg, shape (rigs,).
+
+    Where they do not it is the largest that was tried.
+    """
+    levels = LEVEL * np.arange(len(errors))
+    return np.array([np.interp(b, e, levels) for b, e in zip(bound, errors.T, strict=True)])
 
 
 def least_largest_error(tests: list[Records]) -> Floats:
@@ -157,21 +172,25 @@ def least_largest_error(tests: list[Records]) -> Floats:
     weights = np.full(angle.shape[:2], 1 / size)
 
     def residual(x: Floats, which: Which) -> Floats:
+        own = left[which]
         w, z, k = np.repeat(np.exp(x), size, axis=0).T
-        made = (
-            second_order_responses(pressure[which].reshape(len(w), -1), period, w, z) * k[:, None]
-        )
-        off = made.reshape(len(x), size, -1) - angle[which]
-        return np.asarray((np.sqrt(weights[which])[..., None] * off).reshape(len(x), -1))
+        made = second_order_responses(pressure[own].reshape(len(w), -1), period, w, z) * k[:, None]
+        off = made.reshape(len(x), size, -1) - angle[own]
+        return np.asarray((np.sqrt(weights[own])[..., None] * off).reshape(len(x), -1))
 
-    everyone, best = np.arange(len(x)), np.full(len(x), np.inf)
+    left, best = np.arange(len(x)), np.full(len(x), np.inf)
     for _ in range(WEIGHINGS):
-        x = fit(differences(residual), x, most=10)
-        off = residual(x, everyone).reshape(*angle.shape)
-        errors = np.sqrt(np.mean(off**2, axis=-1) / weights)
-        best = np.minimum(best, errors.max(axis=1))
-        weights = weights * errors
-        weights /= weights.sum(axis=1, keepdims=True)
+        x[left] = fit(differences(residual), x[left], most=10)
+        off = residual(x[left], np.arange(left.size)).reshape(left.size, size, -1)
+        squares = np.sum(off**2, axis=-1) / off.shape[-1]
+        errors = np.sqrt(squares / weights[left])
+        best[left] = np.minimum(best[left], errors.max(axis=1))
+        weights[left] *= errors
+        weights[left] /= weights[left].sum(axis=1, keepdims=True)
+        # No model has a smaller largest error than this one's mean by the weights.
+        left = left[best[left] > (1 + GAP) * np.sqrt(squares.sum(axis=1))]
+        if not left.size:
+            break
     return best
 
 

@@ -5,6 +5,7 @@ import pandas as pd
 from book.companion.claims import printed_text
 from book.twin import outcomes, study
 from book.twin.misfit import chosen
+from book.twin.recipes import ALL
 from book.twin.tension import Pull
 
 SIGNS = {"=": "", "~": "about ", "<": "below ", ">": "above "}
@@ -31,7 +32,7 @@ def outcome_table(word: str) -> pd.DataFrame:
             "ensemble": f"{_number(one.low)} to {_number(one.high)}",
             "nearest": _number(one.nearest),
         }
-        for one, target in zip(outcomes.KEPT.read(), chosen(), strict=True)
+        for one, target in zip(outcomes.KEPT.read(), chosen(ALL), strict=True)
         if one.word == word
     ]
     return pd.DataFrame(rows)
@@ -39,7 +40,7 @@ def outcome_table(word: str) -> pd.DataFrame:
 
 def tension_table() -> pd.DataFrame:
     """Tabulate what is given up in the smallest set, and what stands against it."""
-    what = {target.id: f"{target.what} ({target.section})" for target in chosen()}
+    what = {target.id: f"{target.what} ({target.section})" for target in chosen(ALL)}
     pulls: tuple[Pull, ...] = study.TABLES["tension"].read()
     return pd.DataFrame(
         {

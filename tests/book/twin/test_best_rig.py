@@ -36,3 +36,13 @@ def test_what_was_cut_goes_on_where_it_stopped(tmp_path):
     found = evolved(again, start, generations=12, rigs=8, kept=tmp_path / "state")
     assert len(again.calls) == 7
     np.testing.assert_array_equal(want.x, found.x)
+
+
+def test_a_rig_that_is_known_is_where_it_goes_on_and_is_not_lost():
+    problem = lines([[2.0, 1.0], [1.0, -1.0]], [1.0, 0.5])
+    known = np.linalg.solve(problem.slopes, [1.01, 0.5])
+    before = loss(problem, problem.off(known[None]))[0]
+    best = evolved(problem, _start(problem), generations=0, known=known)
+    np.testing.assert_array_equal(best.x, known[None])
+    later = evolved(problem, _start(problem), generations=40, rigs=12, known=known)
+    assert loss(problem, later.off)[0] < before

@@ -8,6 +8,7 @@ from book.twin.misfit import chosen, misfit
 from book.twin.outcomes import KEPT, judged
 from book.twin.pictures import percents
 from book.twin.problem import error_of
+from book.twin.recipes import ALL
 from book.twin.space import space
 from book.twin.targets import targets
 
@@ -25,9 +26,9 @@ def test_every_kept_rig_lies_in_the_declared_space():
 
 def test_the_kept_numbers_are_those_of_the_kept_rigs():
     """Of the best rig, and of the one nearest to some target: to the digits that are kept."""
-    wanted = chosen()
+    wanted = chosen(ALL)
     k = next(k for k, one in enumerate(OUTCOMES) if one.word == "alone")
-    off = misfit(np.array([best_rig(), nearest()[k]]), jobs=1)
+    off = misfit(np.array([best_rig(), nearest()[k]]), experiments=ALL, jobs=1)
     values = [t.value + o * t.tolerance for t, o in zip(wanted, off[0], strict=True)]
     np.testing.assert_allclose([one.best for one in OUTCOMES], values, rtol=1e-4, atol=1e-6)
     near = wanted[k].value + off[1, k] * wanted[k].tolerance
@@ -52,6 +53,11 @@ def test_a_word_says_what_was_found():
 
 
 def test_a_rig_that_is_nearest_is_no_farther_than_any_other():
-    for one, target in zip(OUTCOMES, chosen(), strict=True):
+    for one, target in zip(OUTCOMES, chosen(ALL), strict=True):
         off = abs(one.nearest - target.value)
         assert off <= abs(one.best - target.value) + 1e-4 * abs(target.value), one.id
+
+
+def test_every_print_is_judged():
+    assert [one.id for one in OUTCOMES] == [one.id for one in targets()]
+    assert len(nearest()) == len(targets())
