@@ -1,8 +1,9 @@
 """The twin's commands.
 
 ``python -m book.twin targets`` shows the targets beside what the calibrated rig gives, ``fit`` fits
-the rig to them, ``outcomes`` runs the kept rigs anew; ``recovery``, ``held``, ``predictions`` and
-``tension`` ask how far that can be trusted, and what it says.
+the rig to them, ``outcomes`` runs the kept rigs anew, ``walk`` some of the ensemble; ``recovery``,
+``held``, ``predictions``, ``tension`` and ``bounds`` ask how far that can be trusted, and what it
+says.
 """
 
 import argparse
@@ -20,7 +21,6 @@ from book.twin.recipes import FAST, SLOW, measured
 from book.twin.space import values
 from book.twin.targets import Target, targets
 
-STAGES = Path("book/_build/twin")
 COMMANDS = {"outcomes": outcomes.KEPT, **study.TABLES}
 NEAR = 10.0
 """Largest deviation, %, of a target that is counted as met."""
@@ -90,7 +90,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("command", choices=["targets", "fit", *COMMANDS])
     parser.add_argument("--fast", action="store_true", help="targets: without slow experiments")
     parser.add_argument("--jobs", type=int, help="processes; all that joblib's configuration says")
-    parser.add_argument("--stages", type=Path, default=STAGES, help="folder of what is done")
+    parser.add_argument("--stages", type=Path, default=study.STAGES, help="folder of what is done")
     chosen = parser.parse_args(arguments)
     if chosen.command == "fit":
         fit(chosen.stages, jobs=chosen.jobs)
