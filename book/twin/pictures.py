@@ -99,7 +99,7 @@ def draw_powers() -> Figure:
 
 def draw_predictions() -> Figure:
     """Draw what is predicted of the numbers that had no say, over what is printed."""
-    what = {one.id: f"{one.what} ({one.section})" for one in chosen()}
+    what = {one.id: f"{one.section.removeprefix('Section ')}: {one.what}" for one in chosen()}
     rows = [one for one in study.TABLES["predictions"].read() if one.interval.actual]
     drawn, axes = sheet(0.2 * len(rows) + 1.0)
     for row, one in enumerate(rows):
@@ -115,14 +115,15 @@ def draw_predictions() -> Figure:
     return drawn
 
 
-LONGEST = 56
-"""Of a label, characters."""
+HEAD, TAIL = 20, 26
+"""Characters of a long label that are left at its two ends."""
 
 
 def shortened(text: str) -> str:
     """Return a label whose middle is left out if it is long."""
-    half = LONGEST // 2
-    return text if len(text) <= LONGEST else f"{text[:half].rstrip()} ... {text[-half:].lstrip()}"
+    if len(text) <= HEAD + TAIL:
+        return text
+    return f"{text[:HEAD].rstrip()} … {text[-TAIL:].lstrip()}"
 
 
 SHOWN = {

@@ -4,14 +4,19 @@ from collections.abc import Callable
 
 import numpy as np
 
-from book.twin import outcomes, study
+from book.twin import outcomes, study, tables
+from book.twin.bounds import BOUNDS, MANY, excludes
 from book.twin.fitted import ensemble
-from book.twin.misfit import LOOPS, chosen
+from book.twin.interval import CLAIMED, Interval, coverage, widening
+from book.twin.misfit import chosen
 from book.twin.pictures import percents
+from book.twin.prediction import Prediction
 from book.twin.problem import MODEL_ERROR, error_of
+from book.twin.recovery import TOLD, Way
 from book.twin.smoother import RIGS, ROUNDS
 from book.twin.space import space
 from book.twin.targets import targets
+from book.twin.walk import PLACES
 
 
 def _median(name: str) -> str:
@@ -42,6 +47,31 @@ def _power(percent: float) -> str:
     return f"{np.percentile(ensemble()[:, [*space()].index('rubber.power')], percent):.2f}"
 
 
+def _of_known(way: Way, kind: str, tell: Callable[[list[Interval]], float], digits: str) -> str:
+    return format(tell([one.interval for one in tables.found(way, kind)]), digits)
+
+
+def _predictions() -> tuple[Prediction, ...]:
+    return study.TABLES["predictions"].read()
+
+
+def _missed() -> set[str]:
+    return {one.id for one in _predictions() if not one.interval.holds}
+
+
+def _narrowed() -> list[Interval]:
+    return [one.interval for one in _predictions() if one.share < tables.NARROWED]
+
+
+def _hidden(table: str) -> list[Interval]:
+    return [one.interval for one in study.TABLES[table].read()]
+
+
+def _excluded() -> set[str]:
+    known = {one.id: one for one in chosen()}
+    return {name for name, make in BOUNDS.items() if excludes(make(), known[name])}
+
+
 WORDS: dict[str, Callable[[], str]] = {
     "targets": lambda: f"{len(targets())}",
     "asked": lambda: f"{len(chosen())}",
@@ -53,9 +83,7 @@ WORDS: dict[str, Callable[[], str]] = {
     "near_before": lambda: _within("before", 10),
     "near_best": lambda: _within("best", 10),
     "compared": lambda: f"{percents('best').size}",
-    "met_before": lambda: f"{_met('before')}",
     "met_best": lambda: f"{_met('best')}",
-    "together": lambda: _count("together"),
     "alone": lambda: _count("alone"),
     "out": lambda: _count("out of reach"),
     "power_low": lambda: _power(5),
@@ -63,6 +91,28 @@ WORDS: dict[str, Callable[[], str]] = {
     "rigs": lambda: f"{RIGS}",
     "rounds": lambda: f"{ROUNDS}",
     "kept": lambda: f"{len(ensemble())}",
-    "loops": lambda: f"{LOOPS}",
-    "dropped": lambda: f"{len(study.TABLES['tension'].read())}",
+    "claimed": lambda: f"{CLAIMED:g}",
+    "truths": lambda: f"{study.TRUTHS}",
+    "tried_rigs": lambda: f"{study.RIGS}",
+    "tried_rounds": lambda: f"{study.ROUNDS}",
+    "tried_generations": lambda: f"{study.GENERATIONS}",
+    "told_share": lambda: f"{100 * TOLD:g}",
+    "smoother_held": lambda: _of_known("smoother", "parameter", coverage, ".0f"),
+    "smoother_wider": lambda: _of_known("smoother", "parameter", widening, ".2f"),
+    "strategy_held": lambda: _of_known("strategy", "parameter", coverage, ".0f"),
+    "strategy_wider": lambda: _of_known("strategy", "parameter", widening, ".2f"),
+    "hidden": lambda: f"{len(_hidden('predictions'))}",
+    "hidden_hold": lambda: f"{sum(one.holds for one in _hidden('predictions'))}",
+    "hidden_held": lambda: f"{coverage(_hidden('predictions')):.0f}",
+    "hidden_wider": lambda: f"{widening(_hidden('predictions')):.2f}",
+    "known_hidden": lambda: f"{len(_hidden('held'))}",
+    "known_held": lambda: f"{coverage(_hidden('held')):.0f}",
+    "known_wider": lambda: f"{widening(_hidden('held')):.2f}",
+    "narrowed": lambda: f"{len(_narrowed())}",
+    "narrowed_hold": lambda: f"{sum(one.holds for one in _narrowed())}",
+    "missed_excluded": lambda: f"{len(_excluded() & _missed())}",
+    "bounds": lambda: f"{len(BOUNDS)}",
+    "excluded": lambda: f"{len(_excluded())}",
+    "bound_rigs": lambda: f"{MANY}",
+    "places": lambda: f"{PLACES}",
 }
