@@ -1,8 +1,9 @@
 """The twin's commands.
 
 ``python -m book.twin targets`` shows the targets beside what the calibrated rig gives, ``fit`` fits
-the rig to them, ``outcomes`` runs the kept rigs anew; ``recovery``, ``held``, ``predictions`` and
-``tension`` ask how far that can be trusted, and what it says.
+the rig to them, ``outcomes`` runs the kept rigs anew, ``walk`` some of the ensemble; ``recovery``,
+``held``, ``predictions``, ``tension`` and ``bounds`` ask how far that can be trusted, and what it
+says.
 """
 
 import argparse
@@ -22,7 +23,6 @@ from book.twin.space import values
 from book.twin.targets import Target, targets
 from softgrip.kept import Kept
 
-STAGES = Path("book/_build/twin")
 COMMANDS: dict[str, Kept[Any]] = {"outcomes": outcomes.KEPT, "bands": bands.KEPT, **study.TABLES}
 NEAR = 10.0
 """Largest deviation, %, of a target that is counted as met."""
@@ -92,7 +92,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("command", choices=["targets", "fit", "rigs", *COMMANDS])
     parser.add_argument("--fast", action="store_true", help="targets: without slow experiments")
     parser.add_argument("--jobs", type=int, help="processes; all that joblib's configuration says")
-    parser.add_argument("--stages", type=Path, default=STAGES, help="folder of what is done")
+    parser.add_argument("--stages", type=Path, default=study.STAGES, help="folder of what is done")
     chosen = parser.parse_args(arguments)
     if chosen.command == "fit":
         fit(chosen.stages, jobs=chosen.jobs)

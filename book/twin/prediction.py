@@ -12,9 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
+from book.twin.interval import CENTRAL, Interval, intervals
 from book.twin.problem import Problem
-from book.twin.recovery import CENTRAL, known
-from book.twin.smoother import Ensemble, smoothed
+from book.twin.recovery import known
+from book.twin.smoother import RIGS, ROUNDS, Ensemble, smoothed
 from book.twin.targets import Target
 from softgrip.arrays import Flags, Floats
 
@@ -29,23 +30,31 @@ class Prediction:
     Attributes:
         predicted: Key of `CHAPTERS`.
         id: Of the target.
-        low, middle, high: 5, 50 and 95 %, in its unit, for what would be printed.
-        printed: What is printed, or would be of a known rig.
+        interval: For what would be printed, in its unit, beside what is printed.
         share: Width of the interval over that before any target was looked at.
     """
 
     predicted: str
     id: str
-    low: float
-    middle: float
-    high: float
-    printed: float
+    interval: Interval
     share: float
 
-    @property
-    def holds(self) -> bool:
-        """Whether the print lies within the interval."""
-        return self.low <= self.printed <= self.high
+
+@dataclass(frozen=True)
+class Held:
+    """What is predicted of a number that a known rig would print.
+
+    Attributes:
+        truth: Number of the rig.
+        predicted: Key of `CHAPTERS`.
+        id: Of the target.
+        interval: For what would be printed, in tolerances from the print.
+    """
+
+    truth: int
+    predicted: str
+    id: str
+    interval: Interval
 
 
 def chapter(target: Target) -> int:
@@ -68,30 +77,59 @@ def without(problem: Problem, which: Flags) -> Problem:
 def spans(problem: Problem, rigs: Ensemble, seed: int) -> Floats:
     """Return the 5, 50 and 95 % of what would be observed, in tolerances, shape (3, targets)."""
     noise = np.random.default_rng(seed).normal(size=rigs.off.shape) * problem.errors
-    return np.asarray(np.percentile(rigs.off + noise, [CENTRAL[0], 50, CENTRAL[1]], axis=0))
+    return np.asarray(np.percentile(rigs.off + noise, CENTRAL, axis=0))
 
 
 def predictions(
-    problem: Problem, name: str, *, jobs: int | None = None, kept: Path | None = None
+    problem: Problem,
+    name: str,
+    *,
+    rigs: int = RIGS,
+    rounds: int = ROUNDS,
+    jobs: int | None = None,
+    kept: Path | None = None,
 ) -> list[Prediction]:
-    """Fit to all chapters but those of a name, and predict these."""
+    """Fit to all chapters but those of a name, and predict these.
+
+    Args:
+        problem: Of the print.
+        name: Key of `CHAPTERS`.
+        rigs, rounds: Of the smoother.
+        jobs: As of `misfit`.
+        kept: Folder of what is done, from which a run that was cut goes on.
+    """
     which = hidden(problem.targets, CHAPTERS[name])
-    rounds = smoothed(without(problem, which), jobs=jobs, kept=kept, progress=True)
-    before, after = (spans(problem, one, seed=0) for one in (rounds[0], rounds[-1]))
+    done = smoothed(
+        without(problem, which), rigs=rigs, rounds=rounds, jobs=jobs, progress=True,
+        kept=kept and kept / f"predictions-{name}.npz",
+    )  # fmt: skip
+    before, after = (spans(problem, one, seed=0) for one in (done[0], done[-1]))
     found = []
     for k in np.flatnonzero(which):
         one = problem.targets[k]
-        off = np.append(after[:, k], problem.observed[k])
-        low, middle, high, printed = (one.value + one.tolerance * off).tolist()
+        own = one.value + one.tolerance * np.append(after[:, k], problem.observed[k])
         share = float(np.ptp(after[:, k]) / np.ptp(before[:, k]))
-        found.append(Prediction(name, one.id, low, middle, high, printed, share))
+        found.append(Prediction(name, one.id, Interval(*own.tolist()), share))
     return found
 
 
-def held(problem: Problem, name: str, number: int, *, jobs: int | None = None) -> float:
-    """Return the share of what a known rig gives that its prediction's intervals hold."""
+def held(
+    problem: Problem,
+    name: str,
+    number: int,
+    *,
+    rigs: int,
+    rounds: int,
+    jobs: int | None = None,
+    kept: Path | None = None,
+) -> list[Held]:
+    """Predict the numbers of a known rig as those of the print; arguments as of `predictions`."""
     asked, _, _ = known(problem, number, jobs)
     which = hidden(problem.targets, CHAPTERS[name])
-    last = smoothed(without(asked, which), seed=number + 1, jobs=jobs)[-1]
-    low, _, high = spans(asked, last, seed=number)
-    return float(np.mean((low <= asked.observed)[which] & (asked.observed <= high)[which]))
+    last = smoothed(
+        without(asked, which), rigs=rigs, rounds=rounds, seed=number + 1, jobs=jobs, progress=True,
+        kept=kept and kept / f"held-{name}-{number}.npz",
+    )[-1]  # fmt: skip
+    said = intervals(spans(asked, last, seed=number)[:, which], asked.observed[which])
+    ids = [one.id for one, own in zip(problem.targets, which, strict=True) if own]
+    return [Held(number, name, *pair) for pair in zip(ids, said, strict=True)]

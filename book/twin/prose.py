@@ -4,15 +4,20 @@ from collections.abc import Callable, Collection
 
 import numpy as np
 
-from book.twin import outcomes
+from book.twin import outcomes, study, tables
 from book.twin.blocks import BLOCKS
+from book.twin.bounds import BOUNDS, MANY, excludes
 from book.twin.fitted import best_rig, ensemble
+from book.twin.interval import CLAIMED, Interval, coverage, widening
 from book.twin.misfit import chosen
 from book.twin.pictures import percents
+from book.twin.prediction import Prediction
 from book.twin.problem import MODEL_ERROR, error_of
+from book.twin.recovery import TOLD, Way
 from book.twin.smoother import RIGS, ROUNDS
 from book.twin.space import space
 from book.twin.targets import Target, targets
+from book.twin.walk import PLACES
 from softgrip.units import DEG
 
 
@@ -55,6 +60,31 @@ def _power(percent: float) -> str:
     return f"{np.percentile(ensemble()[:, [*space()].index('rubber.power')], percent):.2f}"
 
 
+def _of_known(way: Way, kind: str, tell: Callable[[list[Interval]], float], digits: str) -> str:
+    return format(tell([one.interval for one in tables.found(way, kind)]), digits)
+
+
+def _predictions() -> tuple[Prediction, ...]:
+    return study.TABLES["predictions"].read()
+
+
+def _missed() -> set[str]:
+    return {one.id for one in _predictions() if not one.interval.holds}
+
+
+def _narrowed() -> list[Interval]:
+    return [one.interval for one in _predictions() if one.share < tables.NARROWED]
+
+
+def _hidden(table: str) -> list[Interval]:
+    return [one.interval for one in study.TABLES[table].read()]
+
+
+def _excluded() -> set[str]:
+    known = {one.id: one for one in chosen()}
+    return {name for name, make in BOUNDS.items() if excludes(make(), known[name])}
+
+
 WORDS: dict[str, Callable[[], str]] = {
     "targets": lambda: f"{len(targets())}",
     "fitted": lambda: f"{len(_asked('rig')) + len(_asked('pad'))}",
@@ -83,4 +113,28 @@ WORDS: dict[str, Callable[[], str]] = {
     "rigs": lambda: f"{RIGS}",
     "rounds": lambda: f"{ROUNDS}",
     "kept": lambda: f"{len(ensemble())}",
+    "claimed": lambda: f"{CLAIMED:g}",
+    "truths": lambda: f"{study.TRUTHS}",
+    "tried_rigs": lambda: f"{study.RIGS}",
+    "tried_rounds": lambda: f"{study.ROUNDS}",
+    "tried_generations": lambda: f"{study.GENERATIONS}",
+    "told_share": lambda: f"{100 * TOLD:g}",
+    "smoother_held": lambda: _of_known("smoother", "parameter", coverage, ".0f"),
+    "smoother_wider": lambda: _of_known("smoother", "parameter", widening, ".2f"),
+    "strategy_held": lambda: _of_known("strategy", "parameter", coverage, ".0f"),
+    "strategy_wider": lambda: _of_known("strategy", "parameter", widening, ".2f"),
+    "hidden": lambda: f"{len(_hidden('predictions'))}",
+    "hidden_hold": lambda: f"{sum(one.holds for one in _hidden('predictions'))}",
+    "hidden_held": lambda: f"{coverage(_hidden('predictions')):.0f}",
+    "hidden_wider": lambda: f"{widening(_hidden('predictions')):.2f}",
+    "known_hidden": lambda: f"{len(_hidden('held'))}",
+    "known_held": lambda: f"{coverage(_hidden('held')):.0f}",
+    "known_wider": lambda: f"{widening(_hidden('held')):.2f}",
+    "narrowed": lambda: f"{len(_narrowed())}",
+    "narrowed_hold": lambda: f"{sum(one.holds for one in _narrowed())}",
+    "missed_excluded": lambda: f"{len(_excluded() & _missed())}",
+    "bounds": lambda: f"{len(BOUNDS)}",
+    "excluded": lambda: f"{len(_excluded())}",
+    "bound_rigs": lambda: f"{MANY}",
+    "places": lambda: f"{PLACES}",
 }

@@ -2,12 +2,11 @@
 
 A target that many rigs of a search meet is within reach; for each other one the space is searched
 anew with the experiments of this one alone. What then is still missed is out of reach as far as was
-searched; where more can be said, a bound says it that no rig passes.
+searched; where more can be said, `book.twin.bounds` says it.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
 
 import cma
 import numpy as np
@@ -15,7 +14,6 @@ import numpy as np
 from book.twin.problem import FURTHEST, Problem
 from book.twin.smoother import Ensemble
 from softgrip.arrays import Floats
-from softgrip.gripper.internal_model import PERIOD
 
 GENERATIONS, RIGS = 30, 64
 WIDTH = 1.0
@@ -67,14 +65,3 @@ def sought(
         if abs(best.off) <= 1:
             break
     return best
-
-
-def highest_frequency() -> tuple[float, str]:
-    """Return the highest frequency that a record of the gripper can show, rad/s, and why."""
-    return np.pi / PERIOD, f"records of {PERIOD:g} s show no frequency above half their rate"
-
-
-BOUNDS: Mapping[str, Callable[[], tuple[float, str]]] = MappingProxyType(
-    {"6.4-excited-high": highest_frequency, "6.4-excited-high-speeds": highest_frequency}
-)
-"""By target: the largest value that any rig can give, in its unit, and the reason."""

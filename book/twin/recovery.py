@@ -7,47 +7,51 @@ slopes there. An honest 90 % interval holds the truth nine times in ten.
 """
 
 from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
-from book.twin.best_rig import evolved
+from book.twin.best_rig import BOUND, evolved
+from book.twin.interval import CENTRAL, NORMAL, Interval, intervals
 from book.twin.problem import Problem
 from book.twin.smoother import smoothed
 from softgrip.arrays import Floats
 
-CENTRAL = (5.0, 95.0)
-"""Percentiles of an interval that holds nine of ten."""
 STEP = 0.05
 """Of the slopes, in deviations of the prior: small against a range, large against the jumps of a
 settling time."""
 TOLD = 0.5
 """A parameter counts as told where its interval is less than this of the prior's."""
-PRIOR = 2 * 1.6449
-"""Width of the prior's interval."""
+
+Way = Literal["smoother", "strategy"]
+Kind = Literal["parameter", "target"]
 
 
 @dataclass(frozen=True)
 class Recovered:
-    """What a way says of a known rig.
+    """What a way says of a parameter or a target of a known rig.
 
     Attributes:
         truth: Number of the rig.
-        way: "smoother" or "strategy".
-        parameters: Share of the parameters whose interval holds the truth.
-        told: How many parameters have an interval of less than half the prior's.
-        told_hold: Share of these whose interval holds the truth.
-        targets: Share of the targets of which the interval of the ensemble, with the error of the
-            observation, holds what the true rig gives.
-        width: Median width of the intervals over that of the prior.
+        way: See `Way`.
+        kind: See `Kind`.
+        name: Of the parameter, or the target's id.
+        interval: Of the parameter's variable, a standard normal one before any target was looked
+            at; or of what the rig gives, without the chance of its error, in tolerances.
     """
 
     truth: int
     way: str
-    parameters: float
-    told: int
-    told_hold: float
-    targets: float
-    width: float
+    kind: str
+    name: str
+    interval: Interval
+
+    @property
+    def told(self) -> bool:
+        """Whether the targets say much of the parameter: see `TOLD`."""
+        width = self.interval.high - self.interval.low
+        return self.kind == "parameter" and width < TOLD * 2 * NORMAL
 
 
 def known(problem: Problem, truth: int, jobs: int | None = None) -> tuple[Problem, Floats, Floats]:
@@ -74,42 +78,74 @@ def slopes(problem: Problem, x: Floats, jobs: int | None = None) -> Floats:
     return np.asarray((off[: x.size] - off[x.size :]).T / (2 * STEP))
 
 
-def normal_law(problem: Problem, x: Floats, jobs: int | None = None) -> Floats:
-    """Return the covariance of the variables about the best rig, with that of the prior, I."""
-    J = slopes(problem, x, jobs)
-    return np.asarray(np.linalg.inv(J.T @ J + np.eye(x.size)))
+def normal_law(missed: Floats, slopes: Floats, x: Floats) -> tuple[Floats, Floats]:
+    """Return the normal law of the variables by the strategy's loss and the prior about a rig.
+
+    Gauss and Newton's: a target counts by what `best_rig.loss` makes of it there, so that one that
+    is missed by far says nothing.
+
+    Args:
+        missed: At the rig, in errors, shape (targets,).
+        slopes: By its variables, shape (targets, free).
+        x: Its variables, shape (free,).
+
+    Returns:
+        tuple: Mean, shape (free,), and covariance, shape (free, free).
+    """
+    weighed = slopes.T / (1 + (missed / BOUND) ** 2) ** 2
+    covariance = np.linalg.inv(weighed @ slopes + np.eye(x.size))
+    return x - covariance @ (weighed @ missed + x), np.asarray(covariance)
 
 
-def _judged(
-    number: int, way: str, x: Floats, low: Floats, high: Floats, targets: float
-) -> Recovered:
-    holds, width = (low <= x) & (x <= high), (high - low) / PRIOR
-    told = width < TOLD
-    return Recovered(
-        number, way, float(holds.mean()), int(told.sum()),
-        float(holds[told].mean()) if told.any() else float("nan"), targets, float(np.median(width)),
-    )  # fmt: skip
+def _percentiles(mean: Floats, variance: Floats) -> Floats:
+    """Return those of `interval.CENTRAL` of normal laws, shape (3, numbers)."""
+    half = NORMAL * np.sqrt(variance)
+    return np.stack([mean - half, mean, mean + half])
 
 
 def recovered(
-    problem: Problem, number: int, *, generations: int, jobs: int | None = None
+    problem: Problem,
+    number: int,
+    *,
+    rigs: int,
+    rounds: int,
+    generations: int,
+    jobs: int | None = None,
+    kept: Path | None = None,
 ) -> list[Recovered]:
-    """Ask both ways for a known rig."""
+    """Ask both ways for a known rig.
+
+    Args:
+        problem: Whose targets the rig is asked by.
+        number: Of the rig.
+        rigs, rounds: Of the smoother.
+        generations: Of the strategy, which begins where the smoother ended.
+        jobs: As of `misfit`.
+        kept: Folder of what is done, from which a run that was cut goes on.
+    """
     asked, truth, gives = known(problem, number, jobs)
-    rounds = smoothed(asked, seed=number + 1, jobs=jobs)
-    last = rounds[-1]
-    low, high = np.percentile(last.x, CENTRAL, axis=0)
-    rng = np.random.default_rng(number)
-    seen = last.off + rng.normal(size=last.off.shape) * asked.errors
-    inside = np.percentile(seen, CENTRAL, axis=0)
-    targets = float(np.mean((inside[0] <= asked.observed) & (asked.observed <= inside[1])))
-    found = [_judged(number, "smoother", truth, low, high, targets)]
-    if generations:
-        best = evolved(asked, last, generations=generations, seed=number + 1, jobs=jobs)
-        half = PRIOR / 2 * np.sqrt(np.diag(normal_law(asked, best.x[0], jobs)))
-        off = np.abs(best.off[0] - gives) / asked.errors
-        found.append(
-            _judged(number, "strategy", truth, best.x[0] - half, best.x[0] + half,
-                    float(np.mean(off <= PRIOR / 2)))
-        )  # fmt: skip
-    return found
+
+    def rows(way: Way, kind: Kind, said: Floats, actual: Floats) -> list[Recovered]:
+        free, targets = [p.name for p in asked.free], [t.id for t in asked.targets]
+        names = free if kind == "parameter" else targets
+        pairs = zip(names, intervals(said, actual), strict=True)
+        return [Recovered(number, way, kind, name, own) for name, own in pairs]
+
+    last = smoothed(
+        asked, rigs=rigs, rounds=rounds, seed=number + 1, jobs=jobs, progress=True,
+        kept=kept and kept / f"recovery-{number}.npz",
+    )[-1]  # fmt: skip
+    best = evolved(
+        asked, last, generations=generations, seed=number + 1, jobs=jobs, progress=True,
+        kept=kept and kept / f"strategy-{number}.pkl",
+    )  # fmt: skip
+    x, J = best.x[0], slopes(asked, best.x[0], jobs)
+    mean, law = normal_law((best.off[0] - asked.observed) / asked.errors, J, x)
+    off = best.off[0] + asked.errors * (J @ (mean - x))
+    spread = np.einsum("tf,fg,tg->t", J, law, J) * asked.errors**2
+    return [
+        *rows("smoother", "parameter", np.percentile(last.x, CENTRAL, axis=0), truth),
+        *rows("smoother", "target", np.percentile(last.off, CENTRAL, axis=0), gives),
+        *rows("strategy", "parameter", _percentiles(mean, np.diag(law)), truth),
+        *rows("strategy", "target", _percentiles(off, spread), gives),
+    ]

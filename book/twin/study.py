@@ -1,52 +1,61 @@
 """What follows from the fit, and how far it can be trusted: tables below ``data/calibration/``."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from book.twin.bounds import Tried, tried
 from book.twin.fitted import best_rig
-from book.twin.prediction import CHAPTERS, Prediction, held, predictions
-from book.twin.problem import printed
+from book.twin.prediction import CHAPTERS, Held, Prediction, held, predictions
+from book.twin.problem import Problem, printed
 from book.twin.recovery import Recovered, recovered
 from book.twin.tension import Pull, against, fewest
+from book.twin.walk import Miss, misses
 from softgrip.kept import Kept
 
-TRUTHS, GENERATIONS = 6, 120
-"""Known rigs that both ways are tried on, and the strategy's generations there."""
+STAGES = Path("book/_build/twin")
+"""Folder of what is done."""
+TRUTHS, RIGS, ROUNDS, GENERATIONS = 3, 256, 12, 60
+"""Known rigs that both ways are tried on; the smoother's rigs and rounds and the strategy's
+generations there: smaller than those of the fit, as it is asked nine times."""
 PROGRAMS = 12
 
 
-@dataclass(frozen=True)
-class Held:
-    """How often a prediction's interval holds, on a known rig.
+def _done(problem: Problem) -> Path:
+    """Return the folder of what is done of a study, from which a run that was cut goes on.
 
-    Attributes:
-        predicted: Key of `prediction.CHAPTERS`.
-        truth: Number of the rig.
-        share: Of the hidden numbers.
+    Another state of space, targets, simulator or sizes has another.
     """
-
-    predicted: str
-    truth: int
-    share: float
+    state = repr((problem.free, problem.targets, RIGS, ROUNDS)).encode()
+    numbers = [problem.errors, problem.off(np.zeros((1, len(problem.free)))).round(6)]
+    state += b"".join(one.tobytes() for one in numbers)
+    folder = STAGES / sha256(state).hexdigest()[:12]
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
 
 
 def _recovered() -> Iterator[Recovered]:
     problem = printed()
     for number in range(TRUTHS):
-        yield from recovered(problem, number, generations=GENERATIONS)
+        yield from recovered(
+            problem, number, rigs=RIGS, rounds=ROUNDS, generations=GENERATIONS, kept=_done(problem)
+        )
 
 
 def _predicted() -> Iterator[Prediction]:
+    problem = printed()
     for name in CHAPTERS:
-        yield from predictions(printed(), name)
+        yield from predictions(problem, name, kept=_done(problem))
 
 
 def _held() -> Iterator[Held]:
     problem = printed()
-    for name in CHAPTERS:
-        for number in range(TRUTHS):
-            yield Held(name, number, held(problem, name, number))
+    for number in range(TRUTHS):
+        for name in CHAPTERS:
+            yield from held(problem, name, number, rigs=RIGS, rounds=ROUNDS, kept=_done(problem))
 
 
 def _pulls() -> Iterator[Pull]:
@@ -64,5 +73,7 @@ TABLES = {
     "predictions": _kept("predictions", Prediction, _predicted),
     "held": _kept("held", Held, _held),
     "tension": _kept("tension", Pull, _pulls),
+    "bounds": _kept("bounds", Tried, tried),
+    "walk": _kept("walk", Miss, misses),
 }
 """By command."""
