@@ -73,7 +73,7 @@ class GasParameters:
 
 @dataclass(frozen=True)
 class FingerParameters:
-    """The finger. `softgrip.simulator.calibration` gives those of Design 1.
+    """The finger. `softgrip.simulator.fitted_rigs` gives those of Design 1.
 
     Attributes:
         stiffness: K of the settled torque ``K theta**n``, N m/rad^n.

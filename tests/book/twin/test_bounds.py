@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-from softgrip.simulator.calibration import FULL_PRESSURE
-from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION
 
 from book.twin import bounds
 from book.twin.bounds import BOUNDS, constant_capacity, least_time, swept, tried
@@ -15,7 +13,9 @@ from softgrip.arrays import Floats
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.gripper.uncertainty import excited_band
 from softgrip.logs.pushes import HIGH
+from softgrip.simulator.gripper_steps import OPEN_LOOP_DURATION
 from softgrip.simulator.parameters import PumpParameters
+from softgrip.simulator.statics import FULL_PRESSURE
 from softgrip.units import DEG, MM, REV, MPa
 
 RNG = np.random.default_rng(8)
