@@ -83,7 +83,7 @@ def _fitted(name: str, block: Block, folder: Path, jobs: int | None) -> Found:
     )  # fmt: skip
     best = evolved(
         problem, rounds[-1], generations=block.generations, rigs=block.brood,
-        known=problem.variables(fitted.best_rig())[0], jobs=jobs,
+        known=problem.variables(fitted.rigs(fitted.BEST))[0], jobs=jobs,
         kept=folder / f"{name}-best.pkl", progress=True,
     )  # fmt: skip
     near = [_sought(problem, k, one, folder, jobs) for k, one in enumerate(among([*rounds, best]))]

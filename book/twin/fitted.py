@@ -36,20 +36,21 @@ def keep(name: str, rows: Floats, notes: str) -> None:
 @remembered
 def ensemble() -> Floats:
     """Return the rigs of the ensemble, values in the order of `space`, shape (rigs, parameters)."""
-    return _rigs(ENSEMBLE)
+    return rigs(ENSEMBLE)
 
 
 @remembered
 def best_rig() -> Floats:
     """Return the best rig, values in the order of `space`, shape (parameters,)."""
-    return np.asarray(_rigs(BEST)[0])
+    return np.asarray(rigs(BEST)[0])
 
 
 @remembered
 def nearest() -> Floats:
     """Return the rig nearest to each target of `misfit`, shape (targets, parameters)."""
-    return _rigs(NEAREST)
+    return rigs(NEAREST)
 
 
-def _rigs(name: str) -> Floats:
+def rigs(name: str) -> Floats:
+    """Return the rigs of a file as it now is: what is `remembered` a fit may have replaced."""
     return np.array([[float(row[column]) for column in space()] for row in data_rows(name)])

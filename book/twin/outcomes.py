@@ -61,10 +61,9 @@ def judged(target: Target, before: float, best: float, several: Floats, nearest:
         word = "together"
     elif distance <= 1:
         word = "alone"
-    low, middle, high = np.percentile(several, [5, 50, 95])
-    x = target.value + target.tolerance * np.array([before, best, low, middle, high, nearest])
-    at = dict(zip(("before", "best", "low", "middle", "high", "nearest"), x.tolist(), strict=True))
-    return Outcome(target.id, **at, met=met, distance=distance, word=word)
+    low, middle, high = np.percentile(target.given(several), [5, 50, 95]).tolist()
+    was, found, near = target.given(np.array([before, best, nearest])).tolist()
+    return Outcome(target.id, was, found, low, middle, high, met, near, distance, word)
 
 
 def outcomes(jobs: int | None = None) -> list[Outcome]:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Collection
 
 import numpy as np
 
-from book.twin import outcomes, study, tables
+from book.twin import linear_bound, outcomes, study, tables
 from book.twin.blocks import BLOCKS
 from book.twin.bounds import BOUNDS, MANY, excludes
 from book.twin.fitted import best_rig, ensemble
@@ -90,6 +90,8 @@ WORDS: dict[str, Callable[[], str]] = {
     "fitted": lambda: f"{len(_asked('rig')) + len(_asked('pad'))}",
     "pad_targets": lambda: f"{len(_asked('pad'))}",
     "linear_targets": lambda: f"{len(chosen(['linear range']))}",
+    "linear_best": lambda: f"{_outcome('5.5-linear-range-design-1').best:.0f}",
+    "linear_bound": lambda: f"{best_rig()[[*space()].index(linear_bound.NAME)]:.0f}",
     "pad_rigs": lambda: f"{BLOCKS['pad'].rigs}",
     "pad_rounds": lambda: f"{BLOCKS['pad'].rounds}",
     "single_before": lambda: f"{_outcome('2.3-single-training').before:.0f}",

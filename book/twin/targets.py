@@ -62,6 +62,15 @@ class Target:
             return np.maximum(self.value - measured, 0.0)
         return np.asarray(measured - self.value)
 
+    def given(self, tolerances: Floats) -> Floats:
+        """Return what misses by so many tolerances, in the unit; where a bound holds, the bound.
+
+        >>> lower = Target("x", "", "", ">", 5.0, "%", 0.5, "", "", "", (), ())
+        >>> lower.given(lower.off(np.array([4.0, 7.0])) / lower.tolerance).tolist()
+        [4.0, 5.0]
+        """
+        return self.value + (-1 if self.relation == ">" else 1) * self.tolerance * tolerances
+
 
 def _target(row: dict[str, str]) -> Target:
     numbers = {name: float(row[name]) for name in ("value", "tolerance")}
