@@ -107,9 +107,10 @@ def predictions(
     found = []
     for k in np.flatnonzero(which):
         one = problem.targets[k]
-        own = one.value + one.tolerance * np.append(after[:, k], problem.observed[k])
+        # Beyond a lower bound, the largest miss is the least value.
+        *ends, actual = one.given(np.append(after[:, k], problem.observed[k])).tolist()
         share = float(np.ptp(after[:, k]) / np.ptp(before[:, k]))
-        found.append(Prediction(name, one.id, Interval(*own.tolist()), share))
+        found.append(Prediction(name, one.id, Interval(*sorted(ends), actual), share))
     return found
 
 
