@@ -109,8 +109,9 @@ def predictions(
         one = problem.targets[k]
         # Beyond a lower bound, the largest miss is the least value.
         *ends, actual = one.given(np.append(after[:, k], problem.observed[k])).tolist()
+        low, middle, high = sorted(ends)
         share = float(np.ptp(after[:, k]) / np.ptp(before[:, k]))
-        found.append(Prediction(name, one.id, Interval(*sorted(ends), actual), share))
+        found.append(Prediction(name, one.id, Interval(low, middle, high, actual), share))
     return found
 
 

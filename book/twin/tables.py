@@ -12,8 +12,10 @@ from book.twin.bounds import BOUNDS, excludes
 from book.twin.interval import coverage, widening
 from book.twin.misfit import chosen
 from book.twin.prediction import CHAPTERS, Prediction
+from book.twin.problem import error_of
 from book.twin.recipes import ALL
 from book.twin.recovery import Recovered, Way
+from book.twin.targets import Target
 from book.twin.tension import Pull
 
 SIGNS = {"=": "", "~": "about ", "<": "below ", ">": "above "}
@@ -39,11 +41,34 @@ def outcome_table(word: str) -> pd.DataFrame:
             "best rig": _number(one.best),
             "ensemble": f"{_number(one.low)} to {_number(one.high)}",
             "nearest": _number(one.nearest),
+            "why not": why_not(one, target),
         }
         for one, target in zip(outcomes.KEPT.read(), chosen(ALL), strict=True)
         if one.word == word
     ]
     return pd.DataFrame(rows)
+
+
+NEAR = 0.1
+"""Share of a print within which a value counts as near it."""
+
+
+def why_not(one: outcomes.Outcome, target: Target) -> str:
+    """Say in a line why the best rig does not come near a print; nothing where it does."""
+    if not target.value or abs(one.best / target.value - 1) <= NEAR:
+        return ""
+    if one.id in BOUNDS and excludes(BOUNDS[one.id](), target):
+        return "a [bound](#bounds) excludes it"
+    if one.word == "together":
+        share = error_of(target) * target.tolerance / abs(target.value)
+        return f"within its error, {100 * share:.0f} %"
+    what = {known.id: f"{known.what} ({known.section})" for known in chosen(ALL)}
+    pulls = {pull.id: pull.against.split() for pull in study.TABLES["tension"].read()}
+    if against := pulls.get(one.id):
+        return f"against: {what[against[0]]}"
+    if one.word == "alone":
+        return "alone only; no step from the best rig shows what it would cost"
+    return "no rig that was tried comes to it"
 
 
 def tension_table() -> pd.DataFrame:
