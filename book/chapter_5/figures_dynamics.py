@@ -82,7 +82,9 @@ def _draw(design: str, logs: tuple[Path | str, ...]) -> Figure:
             axes.plot(test.time, run / DEG, color=GREY, lw=0.4, alpha=0.6, label=label)
         axes.plot(test.time, test.angle / DEG, color=MEASURED, label="their mean")
         unmatched = models["linear"].response(test.time, test.pressure)
-        axes.plot(test.time, unmatched / DEG, color=LINEAR, ls=":", lw=1, label="its gain of (a)")
+        axes.plot(
+            test.time, unmatched / DEG, color=LINEAR, ls=":", lw=1, label="linear, gain of (a)"
+        )
         errors = []
         for kind in KINDS:
             model = answer(kind, models[kind], test)
