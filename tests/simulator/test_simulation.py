@@ -6,10 +6,11 @@ from functools import partial
 import numpy as np
 import pytest
 
-from book.chapter_5.logs import STEP_PLUNGER, STEPS
+from book.chapter_5.logs import ANGLES
 from softgrip.errors import InvalidInputError
 from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.simulation import Simulation
+from softgrip.simulator.steps import step_commands, travel_to
 from softgrip.units import DEG, ML, REV
 from tests.simulator.rigs import design_1, printed_gripper
 
@@ -246,13 +247,13 @@ def test_run_to_run_spread_is_the_printed_one():
     # Section 5.4: 2 to 3 deg. Against the closed form, which holds the pressure, a softer finger
     # here takes more air and so sees less of it: some 10 %, and 4 % of scatter from 300 runs.
     spread = []
-    for angle in STEP_PLUNGER:
-        commands = STEPS[f"step-{angle}-1"].control
+    for angle in ANGLES:
+        commands = step_commands(travel_to(FINGER, angle * DEG))
         _, truth = Simulation(FINGER, runs=300).open_loop(commands)
         assert np.median(truth.angle[-1]) / DEG == pytest.approx(angle, abs=1.0)
         spread.append(truth.angle[-1].std() / DEG)
     assert 2.0 < np.mean(spread) < 3.0
-    held = [2.5 * angle / 75 for angle in STEP_PLUNGER]
+    held = [2.5 * angle / 75 for angle in ANGLES]
     np.testing.assert_allclose(spread, held, rtol=0.2)
     assert (np.array(spread) < held).all()
 
