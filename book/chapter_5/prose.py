@@ -28,6 +28,7 @@ from book.chapter_5.step_models import step_test_error as error
 from book.chapter_5.step_protocols import SMALL, kept_errors, stated_stiffness
 from book.chapter_5.step_sweep import ANGLES as STEPS
 from book.chapter_5.step_sweep import KEPT
+from book.companion.choices import choice
 from book.companion.claims import claim_of, printed
 from book.companion.verdict import recomputed
 from softgrip.actuator.cantilever import angle_limit
@@ -211,7 +212,9 @@ WORDS = {
     # How far a straight line goes: deg.
     "bound": lambda: f"{BOUND:g}",
     "stated_limits": lambda: "{}, {} and {}".format(*dynamics.STATED_LIMITS),
-    "ranges": lambda: _pair(map(linear_limit, FINGERS)),
+    "ranges": lambda: _pair(linear_limit(design, BOUND) for design in FINGERS),
+    "fitted_bound": lambda: f"{choice('linear_bound') / DEG:.1f}",
+    "fitted_ranges": lambda: _pair(map(linear_limit, FINGERS)),
     "away": lambda: f"{STEPS[1] - STEPS[0]}",
     "again": lambda: f"{_again()}",
     # Figures that the text refers to by another's number.

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from softgrip.simulator import fitted_rigs
 from softgrip.simulator.chance import SEED, Chance
 from softgrip.simulator.fit_problem import START, Problem
 from softgrip.simulator.free_parameters import parameter_values
@@ -63,8 +64,10 @@ def test_slopes_are_those_of_the_residuals(one):
 
 
 def test_what_is_left_over_at_the_truth_is_the_noise():
-    one = problem(design_1(), read_trial(STEP))
-    point, spread = at(one, design_1()), design_1().spread
+    # The log is the fitted rig's.
+    true = fitted_rigs.design_1()
+    one = problem(true, read_trial(STEP))
+    point, spread = at(one, true), true.spread
     run = Chance(spread, fingers=1, seed=SEED, first=0, runs=1)
     point[len(one.space) :][:3] = [
         np.log(run.stiffness.item()) / spread.stiffness,

@@ -5,6 +5,7 @@ import pytest
 
 from softgrip.errors import DataFileError
 from softgrip.provenance import data_folder
+from softgrip.simulator.fitted_rigs import design_1
 from softgrip.simulator.trial import noise_of, read_trial
 from tests.logs.test_gaps import retimed, rewrite, without
 
@@ -18,15 +19,17 @@ def test_a_whole_log():
     assert one.commands.shape == one.at.shape == one.measured[0].shape == (240,)
     assert one.at.tolist() == list(range(240))
     assert one.believed.all()
-    # 12 commands of 29.06 rad/s, on a screw of 8 mm.
-    assert one.deepest == pytest.approx(12 * 0.025 * 29.059732 * 8e-3 / (2 * np.pi))
+    # All commands go in; on a screw of 8 mm.
+    assert one.deepest == pytest.approx(one.commands.sum() * 0.025 * 8e-3 / (2 * np.pi))
     assert read_trial(GRIPPER).measured.shape == (3, 61)
 
 
 def test_noise_is_that_of_the_sensors():
     one = read_trial(STEP)
-    # 500 Pa and 2 deg, and the converter's rounding. Of 240 rows the estimate is good to 10 %.
-    assert one.noise == pytest.approx(np.hypot([500.0, np.radians(2)], one.rounding), rel=0.15)
+    sensors = design_1().sensors
+    own = [sensors.pressure_noise, sensors.angle_noise]
+    # And the converter's rounding. Of 240 rows the estimate is good to 10 %.
+    assert one.noise == pytest.approx(np.hypot(own, one.rounding), rel=0.15)
     assert one.rounding[0] == pytest.approx(80 * 6894.757 / 818.4 / 12**0.5, rel=1e-6)
 
 
