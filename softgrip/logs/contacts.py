@@ -124,7 +124,7 @@ class _PadLog:
             bad = (counts < least) | (counts >= end)
             if bad.any():
                 raise self.refusal(
-                    f"{name}_counts between {least} and {LARGEST_COUNT - 1}",
+                    f"{name}_counts between {least} and {end - 1}",
                     f"{counts[bad][0]:g} at {self.log['time'][rows][bad][0]:g} s: saturated, "
                     "or a broken wire",
                 )
