@@ -37,6 +37,9 @@ FOUR = {
 SHOWN_START = 2.0
 """h after the calibration, of the hours in Figure 2.G (a)."""
 
+LINEAR_BELOW = 0.1
+"""gf, of the axis of Figure 2.H, which is logarithmic above."""
+
 CORRECTIONS = {
     "without": ("as read", GREY, ":", "s"),
     "repaired": ("a line at the start (Section 2.3)", ORANGE, "--", "o"),
@@ -128,8 +131,11 @@ def figure_2_h() -> Figure:
         best = weight_bandwidth(whole)
         least = left_out_error(points, force, best, groups=groups) / GRAM_FORCE
         axes.plot([best], [least], "o", color=VERMILION, label=f"best, {label}")
-    axes.set(xlabel="bandwidth (V)", ylabel="error (gf)", xscale="log", yscale="log")
-    axes.legend(*(x[::2] for x in axes.get_legend_handles_labels()), loc="upper left")
+    axes.set(xlabel="bandwidth (V)", ylabel="error (gf)", xscale="log")
+    # Readings of a weight that are alike leave no error.
+    axes.set_yscale("symlog", linthresh=LINEAR_BELOW)
+    axes.set_ylim(-LINEAR_BELOW / 5, None)
+    axes.legend(*(x[::2] for x in axes.get_legend_handles_labels()), loc="lower right")
     return drawn
 
 

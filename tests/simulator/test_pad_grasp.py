@@ -49,9 +49,9 @@ def test_change_of_position_brings_the_reading_to_the_desired_force(name):
 @pytest.mark.parametrize("name", grasps.OBJECTS)
 def test_true_force_scatters_as_the_layer_is_seated(name):
     """Independent: the reading is right, so the true force is it by the part that is felt."""
-    found = grasps.summary(grasps.study(name))
+    found, seating = grasps.summary(grasps.study(name)), fitted_layer().object_seating
     # Deviation of a deviation of 200: five per cent; the regressor's own errors add up to it.
-    assert found.force_deviation / found.force == pytest.approx(LAYER.object_seating, rel=0.25)
+    assert found.force_deviation / found.force == pytest.approx(seating, rel=0.25)
 
 
 @pytest.mark.parametrize("name", grasps.OBJECTS)
@@ -96,16 +96,17 @@ def test_held_share_is_that_of_a_normal_force():
     least = float(printed_grasps()["egg"].weight) / 2
     want = norm.sf((least - found.force) / found.force_deviation)
     # Four deviations of a share of 200.
-    assert grasps.held_share("egg") == pytest.approx(want, abs=4 * 0.5 / grasps.RUNS**0.5)
+    assert grasps.held_share("egg", 1.0) == pytest.approx(want, abs=4 * 0.5 / grasps.RUNS**0.5)
 
 
-def test_study_friction_is_among_what_the_print_leaves():
+def test_fitted_friction_is_within_the_error_of_a_model_of_what_the_print_leaves():
+    """A twentieth, as of all fitted numbers; it is fitted to the lift forces as they stand."""
     common = common_friction()
-    assert common.low <= grasps.FRICTION <= common.high
+    assert 0.95 * common.low <= grasps.friction() <= 1.05 * common.high
 
 
 def test_four_times_the_gains_make_the_stiff_contacts_swing():
     egg, tofu = (grasps.summary(grasps.study(name, 4.0)).ripple for name in ("egg", "tofu"))
     assert egg > 20 * grasps.summary(grasps.study("egg")).ripple
-    # Seven times softer, the tofu has the loop gain of the egg with half the gains.
+    # The tofu is so much softer that its loop gain is below that at which it swings.
     assert tofu < 2e-3

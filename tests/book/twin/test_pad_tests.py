@@ -1,5 +1,7 @@
 """The contacts that a pad of the twin feels are those of the kept logs."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,14 +10,14 @@ from book.twin import pad_tests as module
 from book.twin.laboratory import Laboratory
 from book.twin.pad_tests import NEIGHBOURS, felt, right_by_k
 from book.twin.space import values
-from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.simulator.fitted_rigs import fitted_pad
 from softgrip.simulator.pad_tests import PAD_TESTS
 from softgrip.tactile.contact_kind import nearest_neighbours
 from softgrip.tactile.kind_evaluation import split_score
 
 
 def test_contacts_are_those_of_the_log():
-    found, kept = felt(PAD_TESTS["pad-objects"], PadParameters()), contacts(OBJECTS)
+    found, kept = felt(PAD_TESTS["pad-objects"], fitted_pad()), contacts(OBJECTS)
     for name in ("kinds", "objects"):
         assert (getattr(found, name) == getattr(kept, name)).all(), name
     for name in ("responses", "layer", "times", "places", "angles", "forces"):
@@ -26,7 +28,7 @@ def test_contacts_are_those_of_the_log():
 
 
 def test_another_pad_feels_the_same_contacts_otherwise():
-    soft = felt(PAD_TESTS["pad-objects"], PadParameters(spread=5e-4))
+    soft = felt(PAD_TESTS["pad-objects"], replace(fitted_pad(), spread=5e-4))
     kept = contacts(OBJECTS)
     # A log has places to a nanometre.
     assert soft.places == pytest.approx(kept.places, abs=1e-9)
