@@ -14,7 +14,7 @@ from softgrip.arrays import Floats
 from softgrip.control.pid import PERIOD
 from softgrip.control.staircase import staircase
 from softgrip.simulator.fitted_rigs import design_1
-from softgrip.simulator.parameters import PumpParameters
+from softgrip.simulator.parameters import PumpParameters, RigParameters
 from softgrip.units import ML, MM, REV, MPa
 
 LARGEST = 0.15 * MPa
@@ -23,12 +23,18 @@ LARGEST = 0.15 * MPa
 
 def _push(area: float, lead: float, syringe: float, speed: float, words: str) -> Recipe:
     """Return a push at one speed, from 60 mL of air in the syringe until these are swept."""
-    pump = replace(PumpParameters(), area=area, lead=lead, syringe_volume=syringe)
+    sizes = {"area": area, "lead": lead, "syringe_volume": syringe}
+    pump = PumpParameters(**sizes)
     seconds = 60 * ML / (area * pump.advance * speed) + 1.0
+
+    def rig() -> RigParameters:
+        own = design_1()
+        return replace(own, pump=replace(own.pump, **sizes))
+
     return Recipe(
         np.full(round(seconds / PERIOD), speed),
         words,
-        rig=lambda: replace(design_1(), pump=pump),
+        rig=rig,
         plunger=(syringe - 60 * ML) / area,
         until=LARGEST,
     )

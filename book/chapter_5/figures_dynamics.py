@@ -123,8 +123,10 @@ def figure_5_c() -> Figure:
         points = [point for point in step_sweep.KEPT.read() if point.design == design]
         angles = np.array([point.angle for point in points])
         for name, label, colour, marks in lines:
-            errors = [getattr(point, name) for point in points]
-            axes.plot(angles, errors, marks, color=colour, ms=4, label=label)
+            errors = np.array([getattr(point, name) for point in points])
+            # A step that tells no model has no error.
+            told = np.isfinite(errors)
+            axes.plot(angles[told], errors[told], marks, color=colour, ms=4, label=label)
         axes.axhline(BOUND, color=GREY, ls=":")
         for limit in STATED_LIMITS:
             axes.axvline(limit, color=GREY, ls=":")

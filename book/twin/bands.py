@@ -53,8 +53,8 @@ def curves(lab: Laboratory) -> Iterator[tuple[str, Floats, Floats]]:
         yield f"bending-{name}", pressures / MPa, angles / DEG
     for name, make in (("step", rigs.design_1), ("step-fx", rigs.design_3)):
         for degrees in (60, 90):
-            test = lab.step_test(make, np.full(lab.count, degrees * DEG), keep=("true_angle",))
-            yield f"{name}-{degrees}", test.time, test.true_angle[:, :, 0].mean(axis=1) / DEG
+            test = lab.step_test(make, np.full(lab.count, degrees * DEG), keep=("angle",))
+            yield f"{name}-{degrees}", test.time, test.angle[:, :, 0].mean(axis=1) / DEG
     for name, (time, angle) in finger_loops.responses(lab).items():
         yield name, time, angle[lab.known] / DEG
     opened = lab.gripper_open

@@ -142,7 +142,7 @@ def _middle_share(rows: Sequence[Prediction]) -> float:
 
 def bound_table() -> pd.DataFrame:
     """Tabulate the bounds, what random rigs and the search came to, and what they exclude."""
-    pairs = zip(chosen(), outcomes.KEPT.read(), strict=True)
+    pairs = zip(chosen(ALL), outcomes.KEPT.read(), strict=True)
     known = {target.id: (target, one.nearest) for target, one in pairs}
     rows = []
     for row in study.TABLES["bounds"].read():

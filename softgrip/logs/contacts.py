@@ -41,7 +41,7 @@ REST, PRESS, WEIGHT, CONTACT = "rest", "press: element ", "weight: ", "contact"
 """Words of events, or their beginnings."""
 LARGEST_COUNT = 1023
 SATURATED = 0.1
-"""Share of the contacts, or else one of them, in which an element may be at the end of the
+"""Share of the contacts in which an element may be at the end of the
 converter: in more of them its wire is broken, or it is pressed too hard (assumed)."""
 HELD = 0.5
 """s that a press must be held for."""
@@ -137,7 +137,7 @@ class _PadLog:
         for name in PAD_CHANNELS[:ELEMENTS]:
             counts = self.log[f"{name}_counts"]
             times = sum(bool((counts[rows] >= LARGEST_COUNT).any()) for rows in contacts)
-            if times > (most := max(1, int(SATURATED * len(contacts)))):
+            if times > (most := int(SATURATED * len(contacts))):
                 raise self.refusal(
                     f"{name}_counts of {LARGEST_COUNT} in {most} of {len(contacts)} contacts or "
                     "less",

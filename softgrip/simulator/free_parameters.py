@@ -144,8 +144,8 @@ def parameter_values(rig: RigParameters) -> dict[str, float]:
     """Return all numbers of a rig by name, in the order of its parts.
 
     >>> from softgrip.simulator.fitted_rigs import design_1
-    >>> parameter_values(design_1())["finger.memory_time[1]"]
-    8.0
+    >>> parameter_values(design_1())["pump.lead"]
+    0.008
     """
     found: dict[str, float] = {}
     for name, part in parts(rig).items():
@@ -178,8 +178,8 @@ def with_values(rig: RigParameters, values: Mapping[str, float]) -> RigParameter
     """Return a rig with other values of some parameters.
 
     >>> from softgrip.simulator.fitted_rigs import design_1
-    >>> with_values(design_1(), {"finger.memory[1]": 0.2}).finger.memory
-    (0.08, 0.2)
+    >>> with_values(design_1(), {"finger.memory[1]": 0.2}).finger.memory[1]
+    0.2
 
     Raises:
         UnknownNameError: If the rig has no such parameter.

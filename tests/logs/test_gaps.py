@@ -24,11 +24,11 @@ from softgrip.rig.record import record
 from softgrip.rig.replay import Replay
 from softgrip.tactile.drift import DRIFT_WEIGHTS
 from softgrip.units import GRAM_FORCE
-from tests.logs.example_pushes import push_log
+from tests.logs.example_logs import push_log, staircase_log
 from tests.rig.test_check import checked, lose
 
 FOLDER = data_folder() / "simulated"
-PUSH, STAIRCASE, STEP = push_log("push-a"), FOLDER / "staircase.csv", FOLDER / "lqr-fast.csv"
+PUSH, STAIRCASE, STEP = push_log("push-a"), staircase_log(), FOLDER / "lqr-fast.csv"
 
 
 def rewrite(path, kept, change):

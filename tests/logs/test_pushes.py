@@ -10,7 +10,7 @@ from softgrip.logs.pushes import compare, measure_noise, reference_noise
 from softgrip.logs.reader import read_log
 from softgrip.provenance import data_folder
 from softgrip.pump.flow import parameter_set
-from tests.logs.example_pushes import push_log
+from tests.logs.example_logs import push_log
 
 PUSHES = {"push-a": "default", "push-b": "larger area", "push-c": "smaller lead",
           "push-d": "higher speed"}  # fmt: skip
