@@ -16,7 +16,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from book.companion.choices import choice
 from book.companion.exhibit import BOOK
 from softgrip.arrays import Floats
 from softgrip.control.loop import Controller
@@ -27,9 +26,10 @@ from softgrip.logs.schema import LogHeader
 from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance, data_folder
 from softgrip.rig.record import log_row, more_columns, reference_rows
+from softgrip.simulator import calibration_table
+from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
-from softgrip.simulator.fitted_rigs import DESIGN_1, design_1
 from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.simulation import Simulation, Truth, sample
 from softgrip.units import DEG
@@ -47,9 +47,9 @@ class Recipe:
 
     Attributes:
         control: Makes the controller, whose log begins at rest; or the motor speeds in open loop,
-            rad/s, shape (N,), whose log begins at the end of the first period; or these speeds.
+            rad/s, shape (N,), whose log begins at the end of the first period.
         words: What the log shows.
-        duration: s, under a controller, or what gives it.
+        duration: s, under a controller.
         reference: As of `record`, or what gives it.
         push: As of `drive`.
         events: Words by time, s.
@@ -62,9 +62,9 @@ class Recipe:
         calibration: Of the rig, below ``data/``.
     """
 
-    control: Callable[[], RigController | Floats] | Floats
+    control: Callable[[], RigController] | Floats
     words: str
-    duration: float | Callable[[], float] = STEP_DURATION
+    duration: float = STEP_DURATION
     reference: Callable[[], Floats] | Floats | None = None
     push: Callable[[float], ArrayLike] | None = None
     events: Mapping[float, str] = field(default_factory=dict)
@@ -74,7 +74,7 @@ class Recipe:
     plunger: float = 0.0
     until: float = np.inf
     period: float = PERIOD
-    calibration: str = DESIGN_1
+    calibration: str = calibration_table.FILE
 
     def write(self, path: Path, source: str) -> None:
         """Write the log to a path, which must be free, with the command that makes it."""
@@ -82,17 +82,11 @@ class Recipe:
         rig = Simulation(
             parameters, seed=SEED, first=self.run, period=self.period, plunger=self.plunger
         )
-        control = self.control() if callable(self.control) else self.control
-        if not isinstance(control, np.ndarray):
-            made = drive(
-                rig,
-                control,
-                duration=self.duration() if callable(self.duration) else self.duration,
-                push=self.push,
-            )
+        if callable(self.control):
+            made = drive(rig, self.control(), duration=self.duration, push=self.push)
             time, command, seen, events = made.time, made.command[:, 0], made.measured, self.events
         else:
-            command = control
+            command = self.control
             seen, truth = rig.open_loop(command)
             time, events = _end(truth, self.until, parameters.pump.stroke)
         pump = parameters.pump
@@ -137,7 +131,7 @@ def tracked(
     gains: str,
     words: str,
     *,
-    reference: Callable[[], Floats],
+    reference: Floats | None = None,
 ) -> Recipe:
     """Return the recipe of a controller of one finger.
 
@@ -146,20 +140,16 @@ def tracked(
         name: What it is called.
         gains: Where its gains stand, below ``data/``.
         words: What the log shows.
-        reference: Gives what is followed, rad, shape (N,).
+        reference: rad, shape (N,); None for a step.
     """
+    followed = np.full(round(STEP_DURATION / PERIOD) + 1, STEP) if reference is None else reference
     return Recipe(
-        lambda: Tracking(controller(), reference()),
+        lambda: Tracking(controller(), followed),
         words,
-        duration=lambda: (reference().size - 1) * PERIOD,
-        reference=lambda: reference()[:, None],
+        duration=(followed.size - 1) * PERIOD,
+        reference=followed[:, None],
         notes={"controller": f"{name}; data/{gains}"},
     )
-
-
-def step_of(name: str) -> Floats:
-    """Return a step whose size is a choice, as a reference, rad, shape (N,)."""
-    return np.full(round(STEP_DURATION / PERIOD) + 1, choice(name))
 
 
 def writers() -> dict[str, Callable[[Path, str], None]]:

@@ -6,9 +6,7 @@ begin at atmospheric pressure, and at the end all of that charge is at the press
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from softgrip.arrays import Number, check_positive
+from softgrip.arrays import check_positive
 from softgrip.checks import check_not_negative
 from softgrip.errors import InvalidInputError
 from softgrip.pump.gas import ATMOSPHERE
@@ -26,10 +24,10 @@ class Finger:
         rise_time: From rest to the pressure, s, > 0.
     """
 
-    gauge_pressure: Number
-    volume_at_rest: Number
-    volume_at_pressure: Number
-    dead_volume: Number
+    gauge_pressure: float
+    volume_at_rest: float
+    volume_at_pressure: float
+    dead_volume: float
     rise_time: float
 
     def __post_init__(self) -> None:
@@ -39,15 +37,15 @@ class Finger:
             rise_time=self.rise_time,
         )
         check_not_negative(dead_volume=self.dead_volume)
-        if not np.all(self.volume_at_pressure >= self.volume_at_rest):
+        if not self.volume_at_pressure >= self.volume_at_rest:
             raise InvalidInputError(
                 "volume_at_pressure",
-                expected=f"at least the volume at rest, {self.volume_at_rest}",
+                expected=f"at least the volume at rest, {self.volume_at_rest:g}",
                 got=self.volume_at_pressure,
             )
 
 
-def swept_volume(finger: Finger, start_volume: Number, atmosphere: Number = ATMOSPHERE) -> Number:
+def swept_volume(finger: Finger, start_volume: float, atmosphere: float = ATMOSPHERE) -> float:
     """Return the volume to push for the wanted pressure, by the exact isothermal gas law.
 
     ``P_0 (V_s + V_rest + V_dead) = P_1 (V_s - s + V_pressure + V_dead)`` is solved for s.
@@ -58,7 +56,7 @@ def swept_volume(finger: Finger, start_volume: Number, atmosphere: Number = ATMO
         atmosphere: P_0, Pa, > 0.
 
     Returns:
-        s, m^3. Above `start_volume` if the syringe does not hold enough.
+        float: s, m^3. Above `start_volume` if the syringe does not hold enough.
 
     >>> finger = Finger(101325.0, 20e-6, 20e-6, 0.0, 1.0)  # double the pressure: half the volume
     >>> round(swept_volume(finger, 60e-6) * 1e6, 6)
@@ -67,8 +65,7 @@ def swept_volume(finger: Finger, start_volume: Number, atmosphere: Number = ATMO
     check_positive(start_volume=start_volume, atmosphere=atmosphere)
     ratio = atmosphere / (atmosphere + finger.gauge_pressure)
     before = start_volume + finger.volume_at_rest + finger.dead_volume
-    swept: Number = start_volume + finger.volume_at_pressure + finger.dead_volume - ratio * before
-    return swept
+    return start_volume + finger.volume_at_pressure + finger.dead_volume - ratio * before
 
 
 def least_start_volume(finger: Finger, atmosphere: float = ATMOSPHERE) -> float:
@@ -83,4 +80,4 @@ def least_start_volume(finger: Finger, atmosphere: float = ATMOSPHERE) -> float:
     check_positive(atmosphere=atmosphere)
     ratio = (atmosphere + finger.gauge_pressure) / atmosphere
     at_rest = finger.volume_at_rest + finger.dead_volume
-    return float(ratio * (finger.volume_at_pressure + finger.dead_volume) - at_rest)
+    return ratio * (finger.volume_at_pressure + finger.dead_volume) - at_rest

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from softgrip.arrays import Floats, Number
+from softgrip.arrays import Floats
 from softgrip.simulator.parameters import SensorParameters
 
 Counts = NDArray[np.int64]
@@ -29,19 +29,7 @@ class Measurement:
     angle_counts: Counts
 
 
-def rounded(value: Number, full: Number, sensors: SensorParameters) -> Number:
-    """Return the counts of `to_counts` as floats; for the kernel, which compiles this."""
-    span = sensors.high_count - sensors.low_count
-    counts = np.rint(sensors.low_count + value * (span / full))
-    return np.minimum(np.maximum(counts, 0.0), sensors.largest_count)
-
-
-def read_back(counts: Number, full: Number, sensors: SensorParameters) -> Number:
-    """Return the value that a count stands for: the line of `to_counts`, read backwards."""
-    return (counts - sensors.low_count) * (full / (sensors.high_count - sensors.low_count))
-
-
-def to_counts(value: Floats, full: Number, sensors: SensorParameters) -> Counts:
+def to_counts(value: Floats, full: float, sensors: SensorParameters) -> Counts:
     """Return the counts of a sensor, rounded and cut to the converter's scale.
 
     Args:
@@ -52,13 +40,15 @@ def to_counts(value: Floats, full: Number, sensors: SensorParameters) -> Counts:
     >>> to_counts(np.array([0.0, 1.0, 9.0]), 1.0, SensorParameters()).tolist()
     [102, 921, 1023]
     """
-    counts: Counts = rounded(value, full, sensors).astype(np.int64)
-    return counts
+    span = sensors.high_count - sensors.low_count
+    scaled = np.rint(sensors.low_count + value * (span / full))
+    return np.clip(scaled, 0, sensors.largest_count).astype(np.int64)
 
 
-def from_counts(counts: Counts, full: Number, sensors: SensorParameters) -> Floats:
-    """Return `read_back` of counts."""
-    value: Floats = read_back(counts.astype(np.float64), full, sensors)
+def from_counts(counts: Counts, full: float, sensors: SensorParameters) -> Floats:
+    """Return the value that a count stands for: the line of `to_counts`, read backwards."""
+    span = sensors.high_count - sensors.low_count
+    value: Floats = (counts.astype(np.float64) - sensors.low_count) * (full / span)
     return value
 
 
@@ -69,10 +59,9 @@ def measure(
 
     Args:
         time: s.
-        pressure, angle: Outputs of the lags, Pa gauge and rad, shape (..., runs) and
-            (fingers, ..., runs).
-        noise: Standard normal numbers, shape (1 + fingers, ..., runs): of the pressure and of
-            each angle.
+        pressure, angle: Outputs of the lags, Pa gauge and rad, shape (runs,) and (fingers, runs).
+        noise: Standard normal numbers, shape (1 + fingers, runs): of the pressure and of each
+            angle.
         sensors: Their parameters.
     """
     felt_pressure = np.minimum(pressure, sensors.pressure_range)

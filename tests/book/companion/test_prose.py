@@ -45,7 +45,6 @@ ROOMS = {
     "author": ["author"],
     "live": ["commissioning", "protocol", "rig"],
     "companion": ["index", "ledger"],
-    "twin": ["one-rig"],
 }
 """Pages by the room that has their computed numbers."""
 

@@ -1,1 +1,0 @@
-"""The printed measurements as one question to the simulated rig: targets, space, experiments."""
