@@ -20,6 +20,8 @@ def _pattern(decimal: str, thousands: str) -> re.Pattern[str]:
     return re.compile(rf"[+\-\u2212]?(?:{whole})(?:[eE][+\-]?\d+)?", flags=re.ASCII)
 
 
+_PLAIN = re.compile(r"[+-]?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?", flags=re.ASCII)
+"""Most numbers: with a point as the decimal sign, they are what Python reads."""
 _NUMBER = {".": _pattern(".", ","), ",": _pattern(",", ".")}
 _THOUSANDS = {".": ",", ",": "."}
 
@@ -34,7 +36,7 @@ class TwoReadingsError(SoftgripError, ValueError):
 
 def is_number(cell: str) -> bool:
     """Tell whether a cell is a number with one of the two decimal signs."""
-    return any(pattern.fullmatch(cell) for pattern in _NUMBER.values())
+    return bool(_PLAIN.fullmatch(cell)) or any(p.fullmatch(cell) for p in _NUMBER.values())
 
 
 def is_missing(cell: str) -> bool:
@@ -48,6 +50,8 @@ def number(cell: str, decimal: str) -> float:
     >>> number("1.234,5", ","), number("1,234.5", "."), number("1,234.5", ",")
     (1234.5, 1234.5, nan)
     """
+    if decimal == "." and _PLAIN.fullmatch(cell):
+        return float(cell)
     if not _NUMBER[decimal].fullmatch(cell):
         return np.nan
     plain = re.sub(f"[{_BLANKS}{_THOUSANDS[decimal]}]", "", cell)
@@ -69,7 +73,9 @@ def decimal_sign(cells: Iterable[tuple[int, str]], *, points_may_be_thousands: b
     >>> decimal_sign([(1, "0,5"), (2, "1.234,5")], points_may_be_thousands=False)
     ','
     """
-    seen = list(cells)
+    seen = [one for one in cells if not one[1].isdigit()]
+    if not (points_may_be_thousands or any("," in c or c.count(".") > 1 for _, c in seen)):
+        return "."
     against = {
         sign: next((one for one in seen if not pattern.fullmatch(one[1])), None)
         for sign, pattern in _NUMBER.items()

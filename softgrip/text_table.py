@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from softgrip.arrays import Floats
-from softgrip.errors import DataFileError
+from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.text_cells import (
     BLANKS,
     SEPARATORS,
@@ -74,15 +74,17 @@ class TextTable:
         line = self.names_line if line is None else line
         return DataFileError(self.path, expected=expected, got=got, line=line)
 
-    def column(self, name: str) -> int:
+    def column(self, name: str | int) -> int:
         """Return the number of a column, from 0, by its name or its heading.
 
         The unit of a heading may be written in any way, and the case of letters counts only where
-        two names differ in nothing else.
+        two names differ in nothing else. A number is returned as it is.
 
         Raises:
             DataFileError: If there is none, or more than one.
         """
+        if isinstance(name, int):
+            return name
         own, unit = heading(" ".join(name.split()))
         wanted = f"{own} [{unit}]" if unit else own
         for labels in (self.headings, self.names):
@@ -94,12 +96,12 @@ class TextTable:
                     return found[0]
         raise self.refusal(f"a column {name!r}", ", ".join(map(repr, self.headings)))
 
-    def cells(self, name: str) -> tuple[str, ...]:
+    def cells(self, name: str | int) -> tuple[str, ...]:
         """Return the words of a column, one a row; `name` as of `column`."""
         at = self.column(name)
         return tuple(row[at] for row in self.rows)
 
-    def numbers(self, name: str, *, missing: bool = False) -> Floats:
+    def numbers(self, name: str | int, *, missing: bool = False) -> Floats:
         """Return the numbers of a column, shape (rows,), in its unit.
 
         Args:
@@ -110,11 +112,12 @@ class TextTable:
         Raises:
             DataFileError: If a cell is no finite number; it names line and column.
         """
-        cells = self.cells(name)
+        at = self.column(name)
+        cells = self.cells(at)
         found = np.array([number(cell, self.decimal) for cell in cells])
         for line, cell, value in zip(self.lines, cells, found, strict=True):
             if not (np.isfinite(value) or (missing and is_missing(cell))):
-                raise self.refusal(f"a finite number under {name}", repr(cell), line)
+                raise self.refusal(f"a finite number under {self.names[at]}", repr(cell), line)
         return found
 
 
@@ -138,7 +141,14 @@ def read_table(
         DataFileError: If the file is no text or holds no table, a row has more or fewer cells than
             there are names, or there are two ways to read it: separators, decimal signs, or tables
             of like length. It says what decides.
+        InvalidInputError: If separator or decimal is none.
     """
+    if decimal not in (None, ".", ","):
+        raise InvalidInputError("decimal", expected="'.' or ','", got=decimal)
+    if separator is not None and (
+        len(separator) != 1 or separator.isalnum() or separator in "\"'."
+    ):
+        raise InvalidInputError("separator", expected="one sign, such as ';'", got=separator)
     file = Path(path)
     text = text_of(file)
     separator = separator or declared_separator(text)
@@ -202,7 +212,7 @@ def _by_separator(path: Path, text: str, given: str | None) -> list[_Block]:
     got: list[str] = []
     for one in [given] if given else [*SEPARATORS, BLANKS]:
         # Blanks part cells only where nothing else does: they stand in names, too.
-        if one == BLANKS and found:
+        if (one == BLANKS and found) or (one not in text and one != BLANKS):
             continue
         way = SEPARATORS.get(one, "blanks")
         try:
@@ -213,8 +223,10 @@ def _by_separator(path: Path, text: str, given: str | None) -> list[_Block]:
         blocks = [block for block in _blocks(rows, one) if given or _parted(block)]
         found |= {one: blocks} if blocks else {}
         got += _why_none(rows, way) if one in text else []
-    shares = {one: max(blocks, key=_length).share for one, blocks in found.items()}
-    best = [one for one, share in shares.items() if share == max(shares.values())]
+    best = [*found]
+    if len(found) > 1:
+        shares = {one: max(blocks, key=_length).share for one, blocks in found.items()}
+        best = [one for one, share in shares.items() if share == max(shares.values())]
     if len(best) > 1:
         ways = " or by ".join(SEPARATORS[one] for one in best)
         raise DataFileError(path, expected="one way to part cells: give the separator", got=ways)
@@ -271,7 +283,7 @@ def _first_row(rows: Sequence[Row], at: int) -> int:
     names = trimmed(rows[at][1])
     for first in range(at + 1, min(at + 3, len(rows))):
         row = trimmed(rows[first][1], len(names))
-        if _numeric(names) or len(row) != len(names):
+        if any(map(is_number, names)) or len(row) != len(names):
             return 0
         if _numeric(row):
             return first

@@ -9,8 +9,7 @@
 Lines that start with ``#`` are comments. The pad may have any number of channels.
 """
 
-import csv
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
@@ -19,9 +18,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from softgrip.arrays import Floats, read_only
-from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.errors import InvalidInputError
+from softgrip.quantities import convert
+from softgrip.text_table import TextTable, read_table
 
 Labels = NDArray[np.str_] | Floats
+ALWAYS = 7
+"""Steps in a row by which a channel rises by chance once in 40,320 readings of so many."""
+NO_CHANNELS = frozenset(("", "t", "time", "timestamp", "index", "id", "row", "sample", "no", "nr"))
+"""Names of columns that say when or which, in small letters."""
 
 
 @dataclass(frozen=True)
@@ -76,60 +81,82 @@ def read_readings(
     channels: Sequence[str] = (),
     unit: float | None = None,
 ) -> PadReadings:
-    """Read a CSV of voltages and labels.
+    """Read a table of voltages and labels, as of `softgrip.text_table`.
+
+    Columns that name no unit are in V; a label that names one is a force.
 
     Args:
-        path: Of the file; its first line that is no comment names the columns.
+        path: Of the file.
         label: The column of kinds or weights.
-        channels: The columns of voltages, V; all others than the label if none are named.
-        unit: Newtons of one unit of the label, such as ``softgrip.units.GRAM_FORCE``; labels are
-            strings without it.
+        channels: The columns of voltages; all others than the label if none are named. One that
+            does not change, or as a time or a number of the row does, must be named.
+        unit: Newtons of one unit of the label, such as ``softgrip.units.GRAM_FORCE``, if its column
+            names none; labels are strings without any.
 
     Raises:
         DataFileError: If there is no such file or column, a row has more or fewer cells than there
-            are columns, or a cell is no finite number; names the line.
+            are columns, a unit is none of a voltage or force, a cell is no finite number, a label
+            is empty, or a column cannot be a channel; names the line.
     """
-    file = Path(path)
-    if not file.is_file():
-        raise DataFileError(file, expected="a file", got="none")
-    with file.open(encoding="utf-8", newline="") as stream:
-        lines = [
-            (number, row)
-            for number, row in enumerate(csv.reader(stream), start=1)
-            if row and not row[0].startswith("#")
-        ]
-    if len(lines) < 2:
-        raise DataFileError(file, expected="column names and readings", got=f"{len(lines)} lines")
-    (first, names), rows = lines[0], lines[1:]
-    chosen = tuple(channels) or tuple(name for name in names if name != label)
-    if missing := [name for name in (*chosen, label) if name not in names]:
-        hint = "; a log is read by softgrip.logs.contacts" if names[-1] == "event" else ""
-        raise DataFileError(
-            file, expected=f"columns {', '.join(missing)}", got=", ".join(names) + hint, line=first
-        )
-    for number, row in rows:
-        if len(row) != len(names):
-            raise DataFileError(
-                file, expected=f"{len(names)} cells", got=f"{len(row)}", line=number
-            )
-    columns = [names.index(name) for name in chosen]
-    voltages = [[_number(file, n, row[k], names[k]) for k in columns] for n, row in rows]
-    at = names.index(label)
-    labels = (
-        np.array([row[at].strip() for _, row in rows])
-        if unit is None
-        else unit * np.array([_number(file, n, row[at], label) for n, row in rows])
-    )
-    return PadReadings(chosen, np.array(voltages), labels)
+    table = read_table(path)
+    if label not in table.names and "event" in table.names:
+        got = f"{', '.join(table.names)}; a log is read by softgrip.logs.contacts"
+        raise table.refusal(f"a column {label!r}", got)
+    at = table.column(label)
+    chosen = [table.column(name) for name in channels]
+    others = [k for k in range(len(table.names)) if k != at]
+    labels = _labels(table, at, unit)
+    voltages = {k: _volts(table, k) for k in chosen or others}
+    if not channels:
+        _check_channels(table, voltages, labels)
+    names = tuple(table.names[k] for k in voltages)
+    return PadReadings(names, np.stack([*voltages.values()], axis=1), labels)
 
 
-def _number(file: Path, line: int, cell: str, column: str) -> float:
+def _volts(table: TextTable, at: int) -> Floats:
+    values, unit = table.numbers(at), table.units[at]
+    return _converted(table, at, values, unit, "V") if unit else values
+
+
+def _labels(table: TextTable, at: int, unit: float | None) -> Labels:
+    """Return kinds, or forces in N."""
+    cells, own = table.cells(at), table.units[at]
+    for line, cell in zip(table.lines, cells, strict=True):
+        if not cell:
+            raise table.refusal(f"a label under {table.names[at]}", "an empty cell", line)
+    if not own:
+        return np.array(cells) if unit is None else unit * table.numbers(at)
+    forces = _converted(table, at, table.numbers(at), own, "N")
+    if unit is not None and not np.isclose(float(convert(1.0, own, "N")), unit):
+        raise table.refusal(f"a label in units of {unit:g} N", f"{table.headings[at]!r}")
+    return forces
+
+
+def _converted(table: TextTable, at: int, values: Floats, unit: str, wanted: str) -> Floats:
     try:
-        value = float(cell)
-    except ValueError:
-        value = np.nan
-    if not np.isfinite(value):
-        raise DataFileError(
-            file, expected=f"a finite number under {column}", got=repr(cell), line=line
+        return convert(values, unit, wanted)
+    except InvalidInputError as error:
+        raise table.refusal(f"{table.names[at]} as {error.expected}", repr(unit)) from None
+
+
+def _check_channels(table: TextTable, voltages: Mapping[int, Floats], labels: Labels) -> None:
+    """Refuse columns that are no channels: time, numbers of rows, what never changes."""
+    # Weights may be laid on in their order: then a channel rises with them.
+    ordered = labels.dtype.kind == "f" and bool((np.diff(labels) >= 0).all())
+    for k, values in voltages.items():
+        steps, name = np.diff(values), table.names[k]
+        rises = bool((steps > 0).all()) and (
+            steps.size >= ALWAYS or (steps.size >= 2 and np.ptp(steps) <= 1e-6 * steps[0])
         )
-    return value
+        if name.casefold() in NO_CHANNELS:
+            got = "a column of this name"
+        elif steps.size and not np.ptp(values):
+            got = "one that never changes"
+        elif rises and not ordered:
+            got = "one that rises from row to row"
+        else:
+            continue
+        raise table.refusal(
+            "columns of voltages beside the label: name them, as channels=('e1', 'e2')",
+            f"{name!r}, {got}",
+        )
