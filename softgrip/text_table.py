@@ -281,9 +281,12 @@ def _blocks(rows: Sequence[Row], separator: str) -> list[_Block]:
 def _first_row(rows: Sequence[Row], at: int) -> int:
     """Return which row is the first under names; 0 if these are none."""
     names = trimmed(rows[at][1])
+    # An index has no name in some files; another cell without one is a row that is damaged.
+    if any(map(is_number, names)) or not all(names[1:]):
+        return 0
     for first in range(at + 1, min(at + 3, len(rows))):
         row = trimmed(rows[first][1], len(names))
-        if any(map(is_number, names)) or len(row) != len(names):
+        if len(row) != len(names):
             return 0
         if _numeric(row):
             return first

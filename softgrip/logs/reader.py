@@ -50,9 +50,10 @@ def read_log(path: Path | str, *, columns: Mapping[str, str] | None = None) -> L
     chosen = _chosen(table, told, strict=bool(keys))
     raw = {name: table.numbers(at, missing=True) for name, (at, _) in chosen.items()}
     rows, repairs = _whole_rows(table, chosen, raw)
-    if not (keys or told.columns):
-        names = [n for n, u in zip(table.names, table.units, strict=True) if not u and n != EVENT]
-        repairs += [f"the column {name!r} was left out: it has no unit" for name in names]
+    if not told.columns:
+        taken = {at for at, _ in chosen.values()}
+        left = [k for k, name in enumerate(table.names) if k not in taken and name != EVENT]
+        repairs += [f"{table.headings[k]!r} was left out: it has no known unit" for k in left]
     time = _in_si(table, "time", chosen["time"][1], "s", raw["time"][rows])
     header = _header(table, keys) if keys else _guessed(file, told, time)
     if missing := [name for name in header.columns if keys and name not in chosen]:
@@ -61,12 +62,9 @@ def read_log(path: Path | str, *, columns: Mapping[str, str] | None = None) -> L
         )
     values = {}
     for name, (_, unit) in chosen.items():
-        wanted = header.unit_of(name)
-        if not (keys or wanted or told.columns) and not is_unit(unit):
-            repairs.append(f"the column {name!r} was left out: {unit!r} is no known unit")
-            continue
+        wanted = header.unit_of(name) or _si_unit(table, name, unit)
         values[name] = _in_si(table, name, unit, wanted, raw[name][rows])
-        if unit != (wanted or unit):
+        if unit != wanted:
             repairs.append(f"{name} was converted from {unit} to {wanted}")
     _check_time(table, values["time"], [table.lines[k] for k in rows])
     if keys:
@@ -159,10 +157,10 @@ def _chosen(table: TextTable, told: LogMapping, *, strict: bool) -> dict[str, tu
                 continue
             if strict and not unit:
                 raise table.refusal("'name [unit]'", repr(table.headings[at]))
-            ours = name if strict else _our_name(name)
-            if unit and ours in found:
+            ours, known = (name, True) if strict else _our_name(name, unit)
+            if known and ours in found:
                 raise table.refusal(f"one column {ours!r}", "two")
-            if unit:
+            if known:
                 found[ours] = at, unit
     if "time" not in found:
         raise table.refusal(
@@ -173,29 +171,35 @@ def _chosen(table: TextTable, told: LogMapping, *, strict: bool) -> dict[str, tu
     return found
 
 
-def _our_name(name: str) -> str:
-    """Return the name that a column has in a log of ours, of another case or with blanks."""
+def _our_name(name: str, unit: str) -> tuple[str, bool]:
+    """Return the name of a column as a log of ours has it, and whether its unit can be read."""
     own = name.casefold().replace(" ", "_")
-    return own if any(known_unit(own, columns) for columns in SET_UPS.values()) else name
+    ours = any(known_unit(own, columns) for columns in SET_UPS.values())
+    return (own, bool(unit)) if ours else (name, bool(unit) and is_unit(unit))
 
 
 def _events(
     table: TextTable, told: LogMapping, time: Floats, rows: Sequence[int]
 ) -> tuple[tuple[float, str], ...]:
     """Return what is said of rows, with their times."""
-    own = told.columns.get(EVENT, EVENT)
-    if own not in table.names:
+    if EVENT not in told.columns and EVENT not in table.names:
         return ()
-    cells = table.cells(own)
+    cells = table.cells(told.columns.get(EVENT, EVENT))
     return tuple((float(t), cells[k]) for t, k in zip(time, rows, strict=True) if cells[k])
 
 
-def _in_si(table: TextTable, name: str, unit: str, wanted: str | None, values: Floats) -> Floats:
-    """Return a column in SI, of a unit that is wanted or else of any known one."""
+def _in_si(table: TextTable, name: str, unit: str, wanted: str, values: Floats) -> Floats:
     try:
-        return convert(values, unit, wanted or si_unit(unit, name=name), name=name)
+        return convert(values, unit, wanted)
     except InvalidInputError as error:
-        raise table.refusal(f"{name} as {error.expected}", repr(error.got)) from None
+        raise table.refusal(f"{name} as {error.expected}", repr(unit)) from None
+
+
+def _si_unit(table: TextTable, name: str, unit: str) -> str:
+    try:
+        return si_unit(unit)
+    except InvalidInputError as error:
+        raise table.refusal(f"{name} in {error.expected}", repr(unit)) from None
 
 
 def _check_time(table: TextTable, time: Floats, lines: Sequence[int]) -> None:

@@ -81,7 +81,8 @@ class LogHeader:
         board, firmware: Names and versions; "none" without a board.
         calibration: Name of the calibration of the sensors or of the rig.
         seed: Of chance; empty without.
-        period: Sampling period, s; for rows that no clock gives, the time between the first two.
+        period: Sampling period as stated, s; for rows that no clock gives, the time between the
+            first two. That of the rows is `softgrip.logs.gaps.period_of`.
         notes: More keys and values, of one line each.
         set_up: What was logged: gripper or pad.
     """

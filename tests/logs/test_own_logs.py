@@ -138,7 +138,7 @@ def test_columns_of_more_fingers_and_of_the_pad_are_converted(write):
         ("angle [rad]", "angle [count]", "angle as an angle"),
         ("command [rad/s]", "command [Hz]", "command as a speed of rotation: rad/s, deg/s"),
         ("time [s]", "time [S/s]", "time as a time: s, ms"),
-        ("reference [rad]", "mood [x]", "mood as a unit of one of: time"),
+        ("reference [rad]", "mood [x]", "mood in a unit of one of: time"),
         ("reference [rad]", "reference", r"'name \[unit\]', got 'reference'"),
     ],
 )
