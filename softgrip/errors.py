@@ -20,6 +20,10 @@ class NotFiniteError(InvalidInputError):
         super().__init__(name, expected=expected, got=got)
 
 
+class FitWarning(UserWarning):
+    """A fit that does not hold: what it gives is returned, and is not to be relied on."""
+
+
 class UnknownNameError(SoftgripError, KeyError):
     """A name that is not in a table; the message lists those that are."""
 

@@ -33,7 +33,7 @@ def identified_step(rig: RigParameters, *, angle: float | None = None) -> Identi
         runs=RUNS,
         seed=SEED,
     )
-    return identify(test.time, test.pressure, test.angle, initial_input=0.0)
+    return identify(test.time, test.pressure, test.angle, initial_input=0.0, dead_time=0.0)
 
 
 @remembered
