@@ -24,6 +24,10 @@ class FitWarning(UserWarning):
     """A fit that does not hold: what it gives is returned, and is not to be relied on."""
 
 
+class DependentRowsWarning(UserWarning):
+    """Rows that are not independent: what is tested on some of them was trained on their like."""
+
+
 class UnknownNameError(SoftgripError, KeyError):
     """A name that is not in a table; the message lists those that are."""
 
