@@ -13,7 +13,8 @@ from softgrip.text_table import TextTable
 SIZES: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
         "gauge_length": (
-            r"gau?ge\s*length|(?:initial|specimen)\s*length|length|grip\s*separation|"
+            # A bare length may be that of the whole specimen; a dimension is what is stretched.
+            r"gau?ge\s*length|initial\s*length|dimension\W+length|grip\s*separation|"
             r"(?:anfangs)?messl(?:ä|ae)nge|einspannl(?:ä|ae)nge|(?-i:L0|lo)",
             "m",
         ),

@@ -212,7 +212,7 @@ def test_sizes_that_are_missing_or_doubtful_are_asked(export, head, options, wor
         "Gauge length [mm]: 30\nArea (mm2): 12\n",
         "L0 = 30 mm\nS0 = 12 mm^2\n",
         "Gage Length;3 cm\nDiameter;3.9088 mm\n",
-        "Specimen length,30,mm\nWidth,6,mm\nThickness,2,mm\n",
+        "Initial length,30,mm\nWidth,6,mm\nThickness,2,mm\n",
     ],
 )
 def test_sizes_of_the_file(export, head):
