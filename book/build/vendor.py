@@ -24,8 +24,8 @@ class Package:
     name: str
     version: str
     integrity: str
-    files: dict[str, str]
-    """From a file in the package, or a folder of fonts, to its place beside the pages."""
+    files: tuple[tuple[str, str], ...]
+    """From a file in the package, or a folder of fonts, to a place beside the pages."""
 
 
 PACKAGES = (
@@ -33,26 +33,28 @@ PACKAGES = (
         "mathjax",
         "3.2.2",
         "sha512-Bt+SSVU8eBG27zChVewOicYs7Xsdt40qm4+UpHyX7k0/O9NliPc+x77k1/FEsPsjKPZGJvtRZM1vO+geW0OhGw==",
-        {
-            "es5/tex-mml-chtml.js": "_static/mathjax/tex-mml-chtml.js",
-            "es5/output/chtml/fonts/woff-v2": "_static/mathjax/output/chtml/fonts/woff-v2",
-        },
+        (
+            ("es5/tex-mml-chtml.js", "_static/mathjax/tex-mml-chtml.js"),
+            ("es5/output/chtml/fonts/woff-v2", "_static/mathjax/output/chtml/fonts/woff-v2"),
+        ),
     ),
     Package(
         "@jupyter-widgets/html-manager",
         "1.0.15",
         "sha512-5thBIV6ymNgmPVOHvzx+gGy8ZSKmSazhtGw4/c4xJDVzRhG9PTeQsRjF3FUTopvFi//SABeNz1yp47bCrJ3CQA==",
-        # The manager asks for its fonts below a folder of its own name, beside the page.
-        {
-            "dist/embed-amd.js": "_static/widgets/embed-amd.js",
-            "dist": "@jupyter-widgets/html-manager/dist",
-        },
+        # The script holds two bundles, each with a style. One asks for the fonts below its own
+        # name, beside the page, the other a folder higher; which of them counts hangs on time.
+        (
+            ("dist/embed-amd.js", "_static/widgets/embed-amd.js"),
+            ("dist", "@jupyter-widgets/html-manager/dist"),
+            ("dist", "@jupyter-widgets"),
+        ),
     ),
     Package(
         "requirejs",
         "2.3.8",
         "sha512-7/cTSLOdYkNBNJcDMWf+luFvMriVm7eYxp4BcFCsAX0wF421Vyce5SXP17c+Jd5otXKGNehIonFlyQXSowL6Mw==",
-        {"require.js": "_static/widgets/require.js"},
+        (("require.js", "_static/widgets/require.js"),),
     ),
 )
 
@@ -100,7 +102,7 @@ def _install(package: Package, place: Path) -> None:
         check(archive, package.integrity)
         with tarfile.open(archive) as tar:
             tar.extractall(folder, filter="data")
-        for source, target in package.files.items():
+        for source, target in package.files:
             found, put = folder / "package" / source, place / target
             put.parent.mkdir(parents=True, exist_ok=True)
             if found.is_file():
