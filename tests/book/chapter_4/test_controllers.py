@@ -155,8 +155,11 @@ def test_plunger_reading_settles_late_or_never():
     rig = Simulation(design_1(), runs=7, seed=SEED)
     made = drive(rig, Tracking(controller("actuator by plunger"), step), duration=20.0)
     found = judge_step(made.time, made.measured.angle[:, 0].T, step, band=band)
-    assert found.settled.min() > 2 * settled_on_rig("actuator", step)
-    assert np.isinf(np.median(found.settled))
+    other = settled_on_rig("actuator", step)
+    assert found.settled.min() > 2 * other
+    # Some runs never do; with the fitted motor, whose ramp is short, the middle one just does.
+    assert np.isinf(found.settled).any()
+    assert np.median(found.settled) > 4 * other
 
 
 def test_staircase_lags_more_than_the_printed_fifth_of_a_second(model):
