@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from softgrip.errors import InvalidInputError
 
 Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 Value = TypeVar("Value", float, Floats)
 """A float or an array: a law returns what it was given."""
 Number = Any

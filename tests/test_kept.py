@@ -16,12 +16,11 @@ from softgrip.kept import Kept
 from softgrip.logs import pushes
 from softgrip.materials import facts, fitting
 from softgrip.provenance import Provenance, data_file, describe
-from softgrip.simulator import calibration_table, gripper_calibration_table, pad_calibration_table
 from softgrip.tactile import element_results
 
 MODULES = (
     *(regulators, pid_gains, step_protocols, step_sweep, finger_count, speed, pushes, facts),
-    *(fitting, calibration_table, gripper_calibration_table, pad_calibration_table),
+    fitting,
 )
 MADE_BY = {module.KEPT: module for module in MODULES}
 MADE_BY |= {

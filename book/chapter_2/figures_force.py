@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from book.chapter_2.force_logs import CYCLE_FORCES, REPETITIONS, read
+from book.chapter_2.force_logs import CYCLE_FORCES, read
 from book.chapter_2.forces import (
     RANDOM,
     WHOLE,
@@ -20,6 +20,7 @@ from book.companion.exhibit import figure, table
 from book.companion.style import BLUE, GREEN, GREY, MEASURED, ORANGE, SKY, VERMILION, sheet
 from softgrip.arrays import Floats
 from softgrip.provenance import Provenance
+from softgrip.simulator.force_tests import REPETITIONS
 from softgrip.tactile.force import Weighing, table_2_2
 from softgrip.tactile.force_comparison import regressors
 from softgrip.tactile.nadaraya_watson import left_out_error, tried_bandwidths
@@ -35,6 +36,9 @@ FOUR = {
 
 SHOWN_START = 2.0
 """h after the calibration, of the hours in Figure 2.G (a)."""
+
+LINEAR_BELOW = 0.1
+"""gf, of the axis of Figure 2.H, which is logarithmic above."""
 
 CORRECTIONS = {
     "without": ("as read", GREY, ":", "s"),
@@ -127,8 +131,11 @@ def figure_2_h() -> Figure:
         best = weight_bandwidth(whole)
         least = left_out_error(points, force, best, groups=groups) / GRAM_FORCE
         axes.plot([best], [least], "o", color=VERMILION, label=f"best, {label}")
-    axes.set(xlabel="bandwidth (V)", ylabel="error (gf)", xscale="log", yscale="log")
-    axes.legend(*(x[::2] for x in axes.get_legend_handles_labels()), loc="upper left")
+    axes.set(xlabel="bandwidth (V)", ylabel="error (gf)", xscale="log")
+    # Readings of a weight that are alike leave no error.
+    axes.set_yscale("symlog", linthresh=LINEAR_BELOW)
+    axes.set_ylim(-LINEAR_BELOW / 5, None)
+    axes.legend(*(x[::2] for x in axes.get_legend_handles_labels()), loc="lower right")
     return drawn
 
 

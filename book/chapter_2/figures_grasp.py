@@ -5,10 +5,10 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from book.chapter_2.grasps import (
-    FRICTION,
     OBJECTS,
     at_rest,
     desired_force,
+    friction,
     held_share,
     position_gains,
     position_study,
@@ -35,6 +35,8 @@ from softgrip.tactile.friction import (
 
 ENDS = (5, 95)
 """Of the bands over many grasps, per cent."""
+FRICTION = 1.0
+"""Coefficient that the printed forces are read with: the round number in what they leave."""
 
 
 @figure("2.14", Provenance.SIMULATED)
@@ -45,7 +47,7 @@ def figure_2_14() -> Figure:
         made = study(name)
         low, high = np.percentile(made.measured, ENDS, axis=0)
         axes.fill_between(made.time, low, high, color=BLUE, alpha=0.25, lw=0)
-        least = contact_force(float(printed_grasps()[name].weight), FRICTION)
+        least = contact_force(float(printed_grasps()[name].weight), friction())
         axes.axhline(least, color=GREY, ls=(0, (1, 1)), lw=2.4, label="bears the weight")
         axes.axhline(made.desired, color=ORANGE, label="desired")
         axes.plot(made.time, made.force[0], color=BLACK, ls="--", label="true")
@@ -169,6 +171,7 @@ def table_2_k() -> pd.DataFrame:
     """Tabulate how the simulated force comes to rest, and whether the object is held."""
     columns = {}
     common = common_friction() or Interval(FRICTION, FRICTION)
+    coefficients = sorted((common.low, common.high, friction()))
     for name in OBJECTS:
         made, wanted = study(name), desired_force(name)
         found = summary(made)
@@ -184,9 +187,10 @@ def table_2_k() -> pd.DataFrame:
             "largest true force (N)": f"{found.peak:.3f}",
             "lift force by the pad (N)": f"{simulated_lift(name):.3f}",
             "printed weight (N)": printed_grasps()[name].weight,
-            f"held, friction {common.low:.3f} (%)": f"{100 * held_share(name, common.low):.0f}",
-            f"held, friction {FRICTION:.3f} (%)": f"{100 * held_share(name):.0f}",
-            f"held, friction {common.high:.3f} (%)": f"{100 * held_share(name, common.high):.0f}",
+            **{
+                f"held, friction {x:.3f} (%)": f"{100 * held_share(name, x):.0f}"
+                for x in coefficients
+            },
             "missing, command as position (%)": f"{100 * missing_share(name):.0f}",
         }
     return pd.DataFrame(columns).rename_axis("quantity").reset_index()

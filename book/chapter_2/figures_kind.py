@@ -148,7 +148,7 @@ def figure_2_e() -> Figure:
     axes.axvline(printed_gain(), color=PRINTED, ls="--", label="printed")
     axes.axvline(0, color=GREY, lw=0.8)
     axes.set(xlabel="bagging right, minus single right (of 80)", ylabel="seeds (of 200)")
-    axes.legend(loc="best")
+    drawn.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return drawn
 
 

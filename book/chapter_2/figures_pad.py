@@ -10,17 +10,17 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from book.chapter_2.logs import OBJECTS, PAD_SEED, TRAINING, contacts, errors
+from book.chapter_2.logs import OBJECTS, TRAINING, contacts, errors
 from book.companion.claims import printed
 from book.companion.exhibit import figure, table
 from book.companion.style import BLACK, BLUE, GREEN, ORANGE, VERMILION, WIDTH
 from softgrip.arrays import Floats
-from softgrip.provenance import Provenance
+from softgrip.provenance import Provenance, data_rows
+from softgrip.simulator.fitted_rigs import PAD, fitted_pad
 from softgrip.simulator.pad import ideal_responses, make_pad, press, responses_to
-from softgrip.simulator.pad_calibration_table import KEPT
 from softgrip.simulator.pad_objects import PadObject, pad_object
-from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_surface import Pose
+from softgrip.simulator.pad_tests import PAD_SEED
 from softgrip.tactile.contact_pose import FELT, line_angle, place
 from softgrip.tactile.contacts import KINDS
 from softgrip.tactile.pad_layout import ELEMENT_SIDE, PAD_SIZE, THREE_TWO_THREE
@@ -50,7 +50,7 @@ class DrawnGrasp:
     @property
     def responses(self) -> Floats:
         """What the pad feels, shape (elements,)."""
-        pad = make_pad(PadParameters(), PAD_SEED)
+        pad = make_pad(fitted_pad(), PAD_SEED)
         return responses_to(pad, press(pad, self.item, self.pose, self.force))
 
 
@@ -252,14 +252,15 @@ def table_2_c() -> pd.DataFrame:
 
 @table("2.D", Provenance.SIMULATED)
 def table_2_d() -> pd.DataFrame:
-    """Tabulate the assumptions of the simulated pad."""
+    """Tabulate the fitted parameters of the simulated pad, with what the prints leave to them."""
     return pd.DataFrame(
         {
-            "use": line.use,
-            "quantity": line.quantity,
-            "printed": line.printed,
-            "pad": f"{line.rig:.3g}",
-            "unit": line.unit,
+            "parameter [unit]": row["parameter [unit]"],
+            "value": f"{float(row['value']):.3g}",
+            "90 % interval": f"{float(row['low']):.3g} to {float(row['high']):.3g}"
+            if row["low"]
+            else "",
+            "by the prints": row["status"],
         }
-        for line in KEPT.read()
+        for row in data_rows(PAD)
     )

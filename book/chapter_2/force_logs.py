@@ -10,35 +10,27 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats
 from softgrip.errors import UnknownNameError
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import LogHeader
 from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance, data_file, data_folder
 from softgrip.simulator.chance import SEED, streams
-from softgrip.simulator.force_layer import (
-    ForceLayer,
-    felt_force,
-    layer_voltage,
-    read_counts,
-    volts,
+from softgrip.simulator.fitted_rigs import fitted_layer
+from softgrip.simulator.force_layer import ForceLayer, felt_force
+from softgrip.simulator.force_tests import (
+    PERIOD,
+    REPETITIONS,
+    UNLOADED,
+    Reading,
+    put_down,
+    reading,
+    weight_forces,
 )
-from softgrip.simulator.sensors import Counts
 from softgrip.tactile.drift import DRIFT_WEIGHTS
-from softgrip.tactile.force import WEIGHTS, table_2_2
+from softgrip.tactile.force import table_2_2
 from softgrip.units import GRAM_FORCE
-
-PERIOD = 0.05
-"""s, from sample to sample."""
-
-READ, LOADED, UNLOADED = 5.0, 8.0, 8.0
-"""s: a weight is read so long after it was put down, rests so long, and is off so long. Assumed."""
-
-REPETITIONS = 3
-"""Section 2.3: each weight is measured three times."""
 
 CYCLE_FORCES = (0.2, 0.5, 0.7)
 """Of Figure 2.8 (b), N."""
@@ -53,74 +45,15 @@ LONG_WEIGHTS = (10.0, 25.0, 40.0, 60.0)
 """Weights of a long run, gram-force, in turn; between those that the drift is fitted to."""
 
 
-@dataclass(frozen=True)
-class Reading:
-    """What was read: time (s), true force (N), counts and voltage (V), each of shape (N,)."""
-
-    time: Floats
-    force: Floats
-    counts: Counts
-    voltage: Floats
-
-
-def _reading(
-    time: Floats, true: Floats, felt: Floats, age: ArrayLike, noise: Floats, layer: ForceLayer
-) -> Reading:
-    voltage = layer_voltage(felt, np.asarray(age, dtype=float) + time / 3600, layer)
-    counts = read_counts(voltage, noise, layer)
-    return Reading(time, true, counts, volts(counts, layer))
-
-
-def put_down(
-    forces: ArrayLike,
-    *,
-    seed: int,
-    run: int,
-    layer: ForceLayer | None = None,
-    seating: float | None = None,
-    age: float = 0.0,
-    unloaded: float | Floats = UNLOADED,
-) -> Reading:
-    """Put weights on the layer one after the other, and read each once.
-
-    Args:
-        forces: N, shape (weights,), exact: what is recorded is the weight itself.
-        seed, run: Of chance.
-        layer: Its parameters; None for those of `ForceLayer`.
-        seating: Spread of what the layer feels of a weight; None for that of calibration weights.
-        age: h, when the first weight is put down.
-        unloaded: s, after each weight; a number or shape (weights,).
-    """
-    layer = layer or ForceLayer()
-    true = np.asarray(forces, dtype=float)
-    own, noise = streams(seed, run)
-    spread = layer.seating if seating is None else seating
-    felt_parts = np.exp(spread * own.standard_normal(len(true)))
-    loaded = round(LOADED / PERIOD)
-    lengths = loaded + np.rint(np.broadcast_to(unloaded, true.shape) / PERIOD).astype(int)
-    starts = np.concatenate([[0], np.cumsum(lengths)[:-1]])
-    force = np.zeros(int(lengths.sum()))
-    for start, weight in zip(starts, true * felt_parts, strict=True):
-        force[start : start + loaded] = weight
-    read = starts + round(READ / PERIOD)
-    felt = felt_force(force, PERIOD, layer)[read]
-    return _reading(read * PERIOD, true, felt, age, noise.standard_normal(len(true)), layer)
-
-
-def weight_forces() -> Floats:
-    """Return the forces of the 69 points of Section 2.3, N: three rounds from 0 to 70 gf."""
-    return np.tile((0.0, *WEIGHTS), REPETITIONS) * GRAM_FORCE
-
-
 def load_and_unload(*, seed: int, run: int, layer: ForceLayer | None = None) -> Reading:
     """Return the cycles of Figure 2.8 (b): each force three times, sampled throughout."""
-    layer = layer or ForceLayer()
+    layer = layer or fitted_layer()
     corners = np.cumsum([0.0, RAMP, HOLD, RAMP, REST])
     shape = np.interp(np.arange(0, corners[-1], PERIOD), corners, [0, 1, 1, 0, 0])
     force = np.concatenate([peak * np.tile(shape, REPETITIONS) for peak in CYCLE_FORCES])
     time = PERIOD * np.arange(len(force), dtype=np.float64)
     noise = streams(seed, run)[1].standard_normal(len(force))
-    return _reading(time, force, felt_force(force, PERIOD, layer), 0.0, noise, layer)
+    return reading(time, force, felt_force(force, PERIOD, layer), 0.0, noise, layer)
 
 
 def long_run(age: float, *, seed: int, run: int, layer: ForceLayer | None = None) -> Reading:
@@ -184,7 +117,7 @@ def simulate(name: str) -> LayerLog:
     if name == "objects":
         objects = table_2_2()
         forces = np.repeat([weighed.true for weighed in objects.values()], TIMES)
-        found = put_down(forces, seed=SEED, run=run, seating=ForceLayer().object_seating)
+        found = put_down(forces, seed=SEED, run=run, seating=fitted_layer().object_seating)
         return LayerLog(found, tuple(np.repeat([*objects], TIMES).tolist()))
     return LayerLog(long_run(AGES[run - 3], seed=SEED, run=run))
 

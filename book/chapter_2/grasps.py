@@ -1,7 +1,7 @@
 """The three simulated grasps of Section 2.4: how the force comes to rest, and whether it holds.
 
-Calibrated to the print, and so never claimed as found: the desired forces, the weights, and
-`FRICTION`, which Section 2.4 does not print but its forces enclose. The gains follow from
+Given, and so never claimed as found: the desired forces and the weights, as printed, and the
+friction, which Section 2.4 does not print and was fitted to its lift forces. The gains follow from
 `tuned_gains` and the stiffest of the three contacts; nothing was chosen by how a grasp came out.
 """
 
@@ -12,18 +12,19 @@ from types import MappingProxyType
 import numpy as np
 
 from book.chapter_2.forces import to_force
-from book.chapter_2.logs import PAD_SEED
+from book.companion.choices import choice
 from softgrip.arrays import Floats
 from softgrip.control.pid import PERIOD, Gains
 from softgrip.control.step_metrics import step_metrics
 from softgrip.reads import remembered
-from softgrip.simulator.force_layer import ForceLayer, volts
+from softgrip.simulator.fitted_rigs import fitted_layer, fitted_pad
+from softgrip.simulator.force_layer import volts
 from softgrip.simulator.pad import make_pad
 from softgrip.simulator.pad_grasp import GraspRecord, grasp
 from softgrip.simulator.pad_gripper import GraspGripper, Squeeze, squeeze
 from softgrip.simulator.pad_objects import pad_object
-from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_surface import Pose
+from softgrip.simulator.pad_tests import PAD_SEED
 from softgrip.tactile.force_control import largest_loop_gain, tuned_gains
 from softgrip.tactile.friction import lift_force, printed_grasps
 from softgrip.units import MM
@@ -34,8 +35,6 @@ OBJECTS = {
     "carrot": ("small carrot", Pose((0.0, 1 * MM))),
 }
 """Object of the pad and how it lies (assumed), by the printed name."""
-FRICTION = 1.0
-"""Coefficient of the simulated fingers: the round number in what the printed forces leave."""
 RUNS, SEED = 200, 2027
 BAND = 0.1
 """Of the settling time, as a share: a step of the servo alone is 6 % of the carrot's force."""
@@ -46,13 +45,18 @@ END = 1.0
 @remembered
 def squeezes() -> Mapping[str, Squeeze]:
     """Return how the force rises on each object, by its printed name."""
-    pad = make_pad(PadParameters(), PAD_SEED)
+    pad = make_pad(fitted_pad(), PAD_SEED)
     return MappingProxyType(
         {
             name: squeeze(pad, pad_object(item), pose, GraspGripper())
             for name, (item, pose) in OBJECTS.items()
         }
     )
+
+
+def friction() -> float:
+    """Return the fitted friction coefficient of the simulated fingers."""
+    return choice("friction")
 
 
 def desired_force(name: str) -> float:
@@ -69,7 +73,7 @@ def largest_stiffness() -> float:
 @remembered
 def count_forces() -> Floats:
     """Return the force that the regressor says for each count of the converter, N."""
-    layer = ForceLayer()
+    layer = fitted_layer()
     return to_force(volts(np.arange(layer.largest_count + 1), layer))
 
 
@@ -113,10 +117,10 @@ def at_rest(record: GraspRecord, values: Floats) -> Floats:
     return found
 
 
-def held_share(name: str, friction: float = FRICTION) -> float:
+def held_share(name: str, coefficient: float) -> float:
     """Return the share of the simulated grasps whose true lift force at rest bears the weight."""
     record = study(name)
-    lift = lift_force(at_rest(record, record.force), friction)
+    lift = lift_force(at_rest(record, record.force), coefficient)
     return float(np.mean(lift >= float(printed_grasps()[name].weight)))
 
 

@@ -1,12 +1,5 @@
-"""The two simulated logs of the pad: which contacts they hold, and how they are made.
+"""The two simulated logs of the pad: how they are made; `simulator.pad_tests` says of what."""
 
-As in Sections 2.3 and 2.4: 630 contacts to learn from (its objects are not printed: here 21, seven
-a kind, 30 contacts each), and the eight foods with ten contacts each. Objects, places and angles
-come in random order.
-"""
-
-from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -18,60 +11,14 @@ from softgrip.logs.schema import PAD_CHANNELS, LogHeader
 from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance, data_file
 from softgrip.reads import remembered
-from softgrip.simulator.chance import SEED, streams
+from softgrip.simulator.chance import streams
+from softgrip.simulator.fitted_rigs import fitted_pad
 from softgrip.simulator.pad import convert, make_pad, press, to_volts, voltages
-from softgrip.simulator.pad_hand import FORCES, FULL, draw_pose
-from softgrip.simulator.pad_objects import FOODS, OTHERS, PadObject
-from softgrip.simulator.pad_parameters import PadParameters
-from softgrip.simulator.pad_surface import Pose
+from softgrip.simulator.pad_hand import FULL
+from softgrip.simulator.pad_tests import BETWEEN, PAD_SEED, PAD_TESTS, draw_contacts
 from softgrip.tactile.contact_pose import PlaceErrors, place_errors
 from softgrip.tactile.contacts import ELEMENTS, Contacts
 from softgrip.tactile.pad_layout import THREE_TWO_THREE
-
-BETWEEN = 10.0
-"""Time from contact to contact, s (assumed)."""
-
-
-@dataclass(frozen=True)
-class PadTest:
-    """What a log of the pad holds.
-
-    Attributes:
-        objects: What is pressed on it.
-        repeats: Contacts of each.
-        seed: Of order, places, forces, surfaces and noise.
-        words: What the log shows.
-    """
-
-    objects: tuple[PadObject, ...]
-    repeats: int
-    seed: int
-    words: str
-
-
-PAD_SEED = SEED
-"""Of the pad: both logs are of the same one."""
-
-PAD_TESTS = {
-    "pad-training": PadTest(
-        (*FOODS, *OTHERS), 30, 2025, "630 contacts of 21 objects to learn the contact kind from"
-    ),
-    "pad-objects": PadTest(FOODS, 10, 2026, "80 contacts of the eight foods of Section 2.4"),
-}
-"""The logs by name."""
-
-
-def draw_contacts(
-    test: PadTest, tilt: float, chance: np.random.Generator
-) -> Iterator[tuple[PadObject, Pose, float]]:
-    """Yield the contacts of a test in their order: object, pose and force, N."""
-    order = chance.permutation(np.repeat(np.arange(len(test.objects)), test.repeats))
-    for number in order:
-        item = test.objects[number]
-        pose = draw_pose(item, tilt, chance)
-        # To a millinewton, as the command of a press would be.
-        yield item, pose, round(float(chance.uniform(*FORCES)), 3)
-
 
 ROUND = 9
 """Digits after the point in a log: a nanometre, a nanoradian."""
@@ -85,7 +32,7 @@ def write_pad_log(name: str, path: Path, source: str) -> None:
         path: Of the log.
         source: The command that makes it.
     """
-    test, parameters = PAD_TESTS[name], PadParameters()
+    test, parameters = PAD_TESTS[name], fitted_pad()
     pad = make_pad(parameters, PAD_SEED)
     laid, noise = streams(test.seed, 0)
     header = LogHeader(

@@ -7,17 +7,17 @@ from math import prod
 import numpy as np
 
 from book.chapter_2.forces import weighed_objects
-from book.chapter_2.grasps import FRICTION, desired_force, study, summary
+from book.chapter_2.grasps import desired_force, friction, study, summary
 from book.chapter_2.kinds import kept, split_shares
 from book.chapter_2.logs import OBJECTS, contacts, errors
 from book.companion.relations import mean, nearest_share
 from book.companion.verdict import simulated
 from softgrip.materials import yeoh
 from softgrip.materials.facts import facts
+from softgrip.simulator.fitted_rigs import fitted_pad
 from softgrip.tactile.element import STATED_MODULUS, Element, Shape, cut_sphere, shortening
 from softgrip.tactile.element_results import fem_deformation, largest_for
 from softgrip.tactile.element_sensitivity import least_force
-from softgrip.tactile.element_table import ASSUMED
 from softgrip.tactile.force import Weighing
 from softgrip.tactile.friction import contact_force, lift_force
 from softgrip.tactile.hertz import hertz_approach
@@ -98,14 +98,14 @@ def least_force_by_deformation(
 
 
 @simulated
-def ceiling_force(modulus: float, least: float, largest: float) -> float:
-    """Return the force at which the pyramid's resistance has reached its largest, N.
+def ceiling_force(least: float, largest: float) -> float:
+    """Return the force at which an element of the fitted pad has reached its largest resistance, N.
 
     Args:
-        modulus: MPa.
         least, largest: Resistance without load, and under the largest force that is felt, MOhm.
     """
-    return least_force(ASSUMED["pyramid"], (largest - least) * 1e6, modulus * MPa)
+    pad = fitted_pad()
+    return least_force(pad.element, (largest - least) * 1e6, pad.young_modulus)
 
 
 def covered(count: float, element: Sequence[float], pad: Sequence[float]) -> float:
@@ -234,4 +234,4 @@ def pressed(lift: float, other_lift: float, other_contact: float) -> float:
 def simulated_lift(name: str) -> float:
     """Return the estimated lift force, N, of the simulated grasps at rest."""
     measured = desired_force(name) - summary(study(name)).steady_error
-    return lift_force(measured, FRICTION)
+    return lift_force(measured, friction())

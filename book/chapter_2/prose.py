@@ -9,12 +9,12 @@ import pandas as pd
 
 from book.chapter_2 import figures_element as elements
 from book.chapter_2 import figures_pad as pad
-from book.chapter_2.figures_force import CORRECTIONS, SHOWN_START
-from book.chapter_2.figures_grasp import ENDS
+from book.chapter_2.figures_force import CORRECTIONS, LINEAR_BELOW, SHOWN_START
+from book.chapter_2.figures_grasp import ENDS, FRICTION
 from book.chapter_2.figures_kind import printed_gain, printed_right
-from book.chapter_2.force_logs import CYCLE_FORCES, LONG_WEIGHTS
+from book.chapter_2.force_logs import CYCLE_FORCES, HOLD, LONG_WEIGHTS, RAMP
 from book.chapter_2.forces import HOURS, SEEDS, weight_points
-from book.chapter_2.grasps import FRICTION, RUNS, study, summary
+from book.chapter_2.grasps import RUNS, friction, study, summary
 from book.chapter_2.kinds import (
     DRAWS,
     NEIGHBOURS,
@@ -30,7 +30,9 @@ from book.chapter_2.numbers import BAGGED, SINGLE
 from book.companion.claims import printed
 from book.companion.drawn import drawn
 from softgrip.arrays import Floats
-from softgrip.simulator.force_layer import ForceLayer, layer_voltage
+from softgrip.simulator.fitted_rigs import fitted_layer
+from softgrip.simulator.force_layer import layer_voltage
+from softgrip.simulator.force_tests import PERIOD
 from softgrip.simulator.pad_gripper import GraspGripper
 from softgrip.simulator.pad_objects import pad_object
 from softgrip.tactile.accuracy import CONFIDENCE
@@ -41,7 +43,12 @@ from softgrip.tactile.element import STATED_MODULUS, TABLE_MODULUS, Shape
 from softgrip.tactile.element_results import STATED_CYLINDER, fem_deformation
 from softgrip.tactile.element_sensitivity import equal_cut
 from softgrip.tactile.element_table import ASSUMED
-from softgrip.tactile.friction import Interval, common_friction, printed_grasps
+from softgrip.tactile.friction import (
+    Interval,
+    common_friction,
+    contact_force,
+    printed_grasps,
+)
 from softgrip.tactile.kind_evaluation import FOLDS
 from softgrip.tactile.pad_layout import THREE_TWO_THREE
 from softgrip.units import DEG, GRAM_FORCE, MM, MPa
@@ -86,6 +93,14 @@ def _left_out(shape: Shape, of: str) -> float:
     return float(100 * (1 - drawn("Figure 2.A", of, shape)[1][0]))
 
 
+def _signed(text: str) -> str:
+    return text.replace("-", "minus ")
+
+
+def _few(count: int) -> str:
+    return f"{count}" if count else "none"
+
+
 def _gain(name: str) -> "pd.Series[int]":
     """Return how many more contacts of the foods bagging tells, by seed of its draws."""
     return kept("draws")[name] - kept("draws")["single"]
@@ -116,9 +131,23 @@ def _voltages(weight: float) -> Floats:
 
 def _slope() -> float:
     """Return the slope of the layer at the end of its range, counts a gram-force."""
-    layer, step = ForceLayer(), np.array([-0.5, 0.5]) * GRAM_FORCE
+    layer, step = fitted_layer(), np.array([-0.5, 0.5]) * GRAM_FORCE
     change = np.diff(layer_voltage(printed("2.2-range") + step, 0.0, layer))[0]
     return float(change / layer.supply * layer.largest_count)
+
+
+def _opens(peak: float) -> float:
+    """Return by how much the drawn loop of a force opens in its last cycle, V."""
+    force, voltage = drawn("Figure 2.8", f"{peak:g} N, cycle 3", "(c)")
+    top = int(force.argmax())
+    loading = np.interp(force[top:][::-1], force[: top + 1], voltage[: top + 1])
+    return float(np.max(voltage[top:][::-1] - loading))
+
+
+def _tail(peak: float) -> float:
+    """Return the voltage just after a drawn force was taken off, less that before it, V."""
+    time, voltage = drawn("Figure 2.8", f"{peak:g} N, cycle 1", "(b)")
+    return float(voltage[np.searchsorted(time, 2 * RAMP + HOLD + PERIOD)] - voltage[0])
 
 
 def _missed() -> float:
@@ -199,21 +228,24 @@ WORDS = {
     "chosen": lambda: f"{CHOSEN}",
     "neighbours": lambda: _span(NEIGHBOURS),
     "training_first": lambda: f"{drawn('Figure 2.7', 'training')[1][0]:.0f}",
+    "training_most": lambda: f"{drawn('Figure 2.7', 'training')[1].max():.0f}",
+    "training_best": lambda: f"{1 + drawn('Figure 2.7', 'training')[1].argmax()}",
     "training_last": lambda: f"{drawn('Figure 2.7', 'training')[1][-1]:.0f}",
     "printed_right": lambda: _listed(printed_right(-1)),
     "right_single": lambda: f"{kept('draws')['single'][0]}",
     "right_bagged": lambda: f"{kept('draws')[WITH][0]}",
-    "simulated": lambda: f"{_tested(SINGLE):.0f}",
-    "bagging_gains": lambda: f"{_tested(BAGGED) - _tested(SINGLE):.1f}",
+    "simulated": lambda: f"{_tested(SINGLE):.1f}",
+    "bagged": lambda: f"{_tested(BAGGED):.1f}",
     # Figure 2.E
     "draws": lambda: f"{DRAWS}",
     "gain": lambda: f"{printed_gain()}",
-    "gains": lambda: _span([*_gain(WITH), *_gain(WITHOUT)]).replace("-", "minus "),
-    "middle_with": lambda: f"{_gain(WITH).median():.0f}",
-    "middle_without": lambda: f"{_gain(WITHOUT).median():.0f}",
+    "gains": lambda: _signed(_span([*_gain(WITH), *_gain(WITHOUT)])),
+    "middle_with": lambda: _signed(f"{_gain(WITH).median():.0f}"),
+    "middle_without": lambda: _signed(f"{_gain(WITHOUT).median():.0f}"),
     "better_with": lambda: f"{(_gain(WITH) > 0).sum()}",
     "worse_with": lambda: f"{(_gain(WITH) < 0).sum()}",
     "better_without": lambda: f"{(_gain(WITHOUT) > 0).sum()}",
+    "as_printed": lambda: _few(max(sum(_gain(x) >= printed_gain()) for x in (WITH, WITHOUT))),
     "worse_without": lambda: f"{(_gain(WITHOUT) < 0).sum()}",
     # Figure 2.F and Table 2.G
     "surfaces": lambda: _of_objects("surface"),
@@ -227,6 +259,9 @@ WORDS = {
     "zero_after": lambda: f"{_voltages(0)[1:].mean():.2f}",
     "full": lambda: f"{_voltages(printed('2.3-weight-70')).mean():.1f}",
     "cycle_forces": lambda: _listed(CYCLE_FORCES),
+    "memory": lambda: f"{100 * sum(fitted_layer().memory):.0f}",
+    "opens": lambda: f"{max(map(_opens, CYCLE_FORCES)):.2f}",
+    "tail": lambda: f"{max(map(_tail, CYCLE_FORCES)):.2f}",
     "plateaus": lambda: _listed(
         (drawn("Figure 2.8", f"{x:g} N, cycle 1", "(b)")[1].max() for x in CYCLE_FORCES), ".1f"
     ),
@@ -248,6 +283,7 @@ WORDS = {
     "line_contacts": lambda: f"{(contacts(TRAINING).kinds == 'line').sum()}",
     "angle": lambda: f"{np.nanmedian(errors(TRAINING).angle) / DEG:.0f}",
     "angle_most": lambda: f"{np.nanpercentile(errors(TRAINING).angle, 90) / DEG:.0f}",
+    "angle_far": lambda: f"{np.nanmax(errors(TRAINING).angle) / DEG:.0f}",
     "diagonal": lambda: f"{np.degrees(np.arctan2(*np.abs(ROW - OTHER_ROW)[::-1])):.0f}",
     # Figure 2.G: gf, h
     "drift_weights": lambda: _span(LONG_WEIGHTS),
@@ -261,6 +297,7 @@ WORDS = {
     "hours_between": lambda: f"{ceil(_drift('between', '(b)').max())}",
     # Figure 2.H: gf, V
     "point_error": lambda: f"{drawn('Figure 2.H', 'best, a point at a time')[1][0]:.1f}",
+    "linear_below": lambda: f"{LINEAR_BELOW:g}",
     "point_width": lambda: f"{drawn('Figure 2.H', 'best, a point at a time')[0][0]:.3f}",
     "weight_error": lambda: f"{drawn('Figure 2.H', 'best, a weight at a time')[1][0]:.1f}",
     "weight_width": lambda: f"{drawn('Figure 2.H', 'best, a weight at a time')[0][0]:.2f}",
@@ -270,6 +307,8 @@ WORDS = {
     "runs": lambda: f"{RUNS}",
     "record": lambda: f"{study('egg').time[-1]:.0f}",
     "friction": lambda: f"{FRICTION:g}",
+    "fitted_friction": lambda: f"{friction():.2f}",
+    "bears_egg": lambda: f"{contact_force(printed('2.4-weight-egg'), friction()):.2f}",
     "settled_egg": lambda: f"{summary(study('egg')).settling_time:.1f}",
     "settled_tofu": lambda: f"{summary(study('tofu')).settling_time:.1f}",
     "settled_carrot": lambda: f"{summary(study('carrot')).settling_time:.1f}",

@@ -8,12 +8,12 @@ from numpy.typing import ArrayLike
 
 from book.chapter_3.finger_drawing import draw_bent, draw_section
 from book.chapter_3.torque_and_bending import (
-    BUCKLING_TORQUE,
     DESIGNS,
     LENGTH,
     blocked_torque,
     settled_angles,
 )
+from book.companion.band import LABEL, shade
 from book.companion.exhibit import figure
 from book.companion.style import (
     BLUE,
@@ -43,7 +43,7 @@ from softgrip.actuator.printed import (
 )
 from softgrip.actuator.section import Section, torque
 from softgrip.provenance import Provenance
-from softgrip.simulator.calibration import design_1
+from softgrip.simulator.fitted_rigs import design_1
 from softgrip.units import DEG, MM, MPa
 
 DASHES = ("-", "--", "-.", ":", "--", "-.", ":")
@@ -170,13 +170,12 @@ def figure_3_9() -> Figure:
         pressure / MPa, torque(optimum(), pressure), color=BLUE, label="Eq. (3.4), (E1) and (E2)"
     )
     tested = np.linspace(0, PUSHED_TO, 11)
+    shade(axes, "torque", GREY, label=LABEL)
     for name, rig in DESIGNS.items():
-        buckling = BUCKLING_TORQUE.get(name, np.inf)
-        found = blocked_torque(rig().finger, tested, buckling_torque=buckling)
+        found = blocked_torque(rig().finger, tested)
         axes.plot(tested / MPa, found, **LOOK[name], label=f"{name}, simulated")
-    axes.plot(
-        [PUSHED_TO / MPa], [0.359], "o", ms=12, mfc="none", color=PRINTED, label="printed, measured"
-    )
+    ring = {"ms": 12, "mfc": "none", "color": PRINTED, "label": "printed, measured"}
+    axes.plot([PUSHED_TO / MPa] * 2, [0.359, 0.15], "o", **ring)
     axes.set(xlabel="pressure (MPa)", ylabel="torque (N m)", ylim=(0, 0.56), xlim=(0, 0.26))
     axes.legend(loc="upper left")
     return drawn
@@ -197,7 +196,8 @@ def figure_3_10() -> Figure:
     for name, printed in zip(DESIGNS, (206, 201, 232), strict=True):
         axes.plot(tested / MPa, bent_on_rig(name, tested), **LOOK[name], label=f"{name}, simulated")
         axes.plot([BENT_TO / MPa], [printed], "o", ms=12, mfc="none", color=PRINTED)
-    axes.set(xlabel="pressure (MPa)", ylabel="angle (deg)", ylim=(0, 500), xlim=(0, 0.157))
+    shade(axes, "bending-1", GREY, label=LABEL)
+    axes.set(xlabel="pressure (MPa)", ylabel="angle (deg)", ylim=(0, 640), xlim=(0, 0.157))
     axes.legend(loc="upper left", fontsize=8.5)
     return drawn
 

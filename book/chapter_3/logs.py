@@ -3,13 +3,19 @@
 from functools import partial
 
 from book.chapter_3.regulators import FILE, regulator
-from book.companion.simulated_logs import tracked
+from book.companion.simulated_logs import step_of, tracked
 
 RECIPES = {
-    f"lqr-{design}": tracked(partial(regulator, design), f"lqr {design}", FILE, words)
+    f"lqr-{design}": tracked(
+        partial(regulator, design),
+        f"lqr {design}",
+        FILE,
+        words,
+        reference=partial(step_of, "lqr_step"),
+    )
     for design, words in (
-        ("printed", "Figure 3.12: 60 deg, LQR with the weights of Eq. (3.29)"),
-        ("fast", "Figure 3.12: 60 deg, LQR made faster"),
+        ("printed", "Figure 3.12: LQR with the weights of Eq. (3.29)"),
+        ("fast", "Figure 3.12: LQR made faster"),
     )
 }
 LOGS = {name: recipe.write for name, recipe in RECIPES.items()}

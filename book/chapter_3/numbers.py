@@ -8,6 +8,7 @@ from scipy.optimize import brentq
 
 from book.chapter_3.stepped import identified_row
 from book.chapter_4.identified_model import identified_model
+from book.companion.choices import choice
 from book.companion.relations import ratio
 from book.companion.verdict import simulated
 from softgrip.actuator.bending import Finger
@@ -199,7 +200,7 @@ def optimum(
 
 @simulated
 def stepped_frequency(row: str) -> float:
-    """Return what second-order identification says of simulated steps to 60 deg, rad/s.
+    """Return what second-order identification says of simulated steps, rad/s.
 
     `row` is "row 1" to "row 4" of Table 3.2: a bare number would be read as printed.
     """
@@ -370,7 +371,7 @@ def lqr_error(
 
 
 @simulated
-def lqr_settling_on_rig(design: str, criterion: str = "settled_5_deg") -> float:
-    """Return the settling time of a regulator on the simulated rig, a step to 60 deg, s."""
+def lqr_settling_on_rig(design: str, criterion: str = "settled") -> float:
+    """Return the settling time of a regulator on the simulated rig, s; step and band are fitted."""
     path = data_file(f"simulated/lqr-{design}.csv").path
-    return float(getattr(judge_step_log(path), criterion))
+    return float(getattr(judge_step_log(path, band=choice("lqr_band")), criterion))

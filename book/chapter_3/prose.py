@@ -17,17 +17,19 @@ from book.chapter_3.figures import (
 )
 from book.chapter_3.figures_control import (
     BANDS,
-    CRITERIA,
     RUNS,
     SHARE,
     STEPS,
+    criteria,
     least_time,
     settled_step,
+    step_size,
 )
 from book.chapter_3.numbers import lqr_settling_on_rig
 from book.chapter_3.numbers import optimum as best
+from book.chapter_3.stepped import frequency_step, identified_row, small_motions
 from book.chapter_3.torque_and_bending import DESIGNS, blocked_torque
-from book.companion.simulated_logs import STEP
+from book.companion.choices import choice
 from book.companion.verdict import recomputed
 from softgrip.actuator.bending import Finger, free_bending
 from softgrip.actuator.certificate import TOLERANCE
@@ -69,6 +71,10 @@ def _top(row: int) -> float:
 def _pushed() -> list[float]:
     """Return the torques of Table 3.1, N m, where their lines end."""
     return [float(torque(section, PUSHED_TO)) for section in table_3_1().values()]
+
+
+def _pushed_on_rig(design: str) -> float:
+    return float(blocked_torque(DESIGNS[design]().finger, PUSHED_TO))
 
 
 def _bent() -> list[float]:
@@ -130,6 +136,9 @@ WORDS = {
     "top_3_below": lambda: f"{best('top', [table_3_2()[2].low] * 2):.2f}",
     "top_4": lambda: f"{_top(4):.2f}",
     "confidence": lambda: f"{100 * CONFIDENCE:g}",
+    "frequency_step": lambda: f"{frequency_step() / DEG:.0f}",
+    "stepped": lambda: f"{identified_row(1).natural_frequency.value:.2f}",
+    "small_motions": lambda: f"{small_motions():.1f}",
     # Figures 3.5 and 3.9.
     "pushed_least": lambda: f"{min(_pushed()):.2f}",
     "pushed": lambda: f"{max(_pushed()):.2f}",
@@ -137,13 +146,17 @@ WORDS = {
     "deep_pushes": lambda: f"{_judged(1):.2f}",
     "middle_pushes": lambda: f"{_judged(2):.2f}",
     "shallow_pushes": lambda: f"{_judged(3):.2f}",
-    "rig_pushes": lambda: f"{blocked_torque(DESIGNS['Design 1(E1)']().finger, PUSHED_TO):.2f}",
+    "rig_pushes": lambda: f"{_pushed_on_rig('Design 1(E1)'):.2f}",
+    "soft_pushes": lambda: f"{_pushed_on_rig('Design 3(E2)'):.2f}",
     # Figures 3.6, 3.10 and 3.11.
     "bent_least": lambda: f"{min(_bent()):.0f}",
     "bent": lambda: f"{max(_bent()):.0f}",
     "bent_softer": lambda: f"{bent(optimum(), modulus=FX_PRO):.0f}",
     "one_chamber_bends": lambda: f"{judges()[0][1].angle * BENT_TO / DEG:.0f}",
     "rig_bends": lambda: f"{bent_on_rig('Design 1(E1)')[0]:.0f}",
+    "bent_on_rig": lambda: "{:.0f}, {:.0f} and {:.0f}".format(
+        *(bent_on_rig(design)[0] for design in DESIGNS)
+    ),
     "side_view": lambda: f"{BENT_TO / MPa / (SIDE_VIEWS - 1):.2f}",
     # Table 3.A and Figure 3.B.
     "script_bottom": lambda: f"{SCRIPT_BOUNDS.bottom[1] / MM:g}",
@@ -157,18 +170,18 @@ WORDS = {
     "best_top": lambda: f"{optimal_design(STATED).section.top / MM:.0f}",
     "best_bottom": lambda: f"{optimal_design(STATED).section.bottom / MM:.0f}",
     # The regulator: Figures 3.12 and 3.C, Table 3.C.
-    "step": lambda: f"{STEP / DEG:.0f}",
-    "criteria": lambda: " and ".join(f"{100 * share:g} %" for share in CRITERIA[:2]),
-    "criterion": lambda: f"{CRITERIA[2] * STEP / DEG:g}",
-    "two_percent": lambda: f"{100 * CRITERIA[0]:g}",
-    "five_percent": lambda: f"{100 * CRITERIA[1]:g}",
+    "step": lambda: f"{step_size() / DEG:.0f}",
+    "criteria": lambda: " and ".join(f"{100 * share:g} %" for share in criteria()[:2]),
+    "criterion": lambda: f"{choice('lqr_band') / DEG:.1f}",
+    "two_percent": lambda: f"{100 * criteria()[0]:g}",
+    "five_percent": lambda: f"{100 * criteria()[1]:g}",
     "end": lambda: f"{END:g}",
     "runs": lambda: f"{RUNS}",
     "share": lambda: f"{SHARE[1] - SHARE[0]}",
     "printed_on_rig": lambda: f"{lqr_settling_on_rig('printed'):.1f}",
     "fast_on_rig": lambda: f"{lqr_settling_on_rig('fast'):.1f}",
-    "settles": lambda: f"{linear_settling_time(FINGER, Weights(), CRITERIA[0]):.1f}",
-    "any_settles": lambda: f"{least_time(STEP / DEG, CRITERIA[1]):.1f}",
+    "settles": lambda: f"{linear_settling_time(FINGER, Weights(), criteria()[0]):.1f}",
+    "any_settles": lambda: f"{least_time(step_size() / DEG, criteria()[1]):.1f}",
     "pole_bound": lambda: f"{sqrt(Weights().q[0] / Weights().q[1]):.2f}",
     "level": lambda: "{:.1f}, {:.1f} and {:.1f}".format(
         *(settling_at_the_bound(Weights(), band) for band in BANDS.values())

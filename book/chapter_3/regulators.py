@@ -4,9 +4,9 @@ The command identifies the rig from its logs, designs both and writes
 ``data/control/lqr_gains.csv``; the logs are made with what stands there.
 
 `printed`
-    The printed weights, natural frequency and damping ratio, and the robust differentiator. The
-    constant c of Eq. (3.25) is "obtained by experimentation": here the static gain of the finger,
-    as identified from steps to 60 deg.
+    The printed weights, natural frequency and damping ratio, and the robust differentiator, whose
+    jerk is fitted, as none is printed. The constant c of Eq. (3.25) is "obtained by
+    experimentation": here the static gain of the finger, as identified from steps to 60 deg.
 `fast`
     On the identified model, with ten times p and a tenth of q_2, and an observer: fed
     by the differentiator this design swings.
@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from book.chapter_4.identified_model import IdentifiedModel, identified_model
+from book.companion.choices import choice
 from softgrip.control.differentiator import RobustDifferentiator
 from softgrip.control.loop import SPEED_LIMIT, Controller
 from softgrip.control.lqr import FINGER, Weights, input_gain, lqr_gain
@@ -27,12 +28,7 @@ from softgrip.kept import Kept
 FILE = "control/lqr_gains.csv"
 
 FAST = Weights(p=1000.0, q=(1.0, 0.03, 0.0))
-"""Of `fast`. From p = 3000 on some runs of the simulated rig do not come to rest."""
-
-JERK = 10.0
-"""Of the differentiator, rad/s^3: the largest of the linear response to 60 deg, as its exactness
-asks for. With half of it a third of noisy linear loops end up swinging between the motor's limits,
-with more of it the derivatives are noisier."""
+"""Of `fast`. A larger p swings longer on the simulated rig."""
 
 
 @dataclass(frozen=True)
@@ -101,7 +97,7 @@ def regulator(design: str) -> Controller:
     row = known[design]
     gain = (row.k1, row.k2, row.k3)
     if design == "printed":
-        return StateFeedback(gain, row.input_gain, RobustDifferentiator(JERK))
+        return StateFeedback(gain, row.input_gain, RobustDifferentiator(choice("lqr_jerk")))
     finger = SecondOrder(row.natural_frequency, row.damping_ratio)
     return ObserverFeedback(gain, finger, row.input_gain)
 

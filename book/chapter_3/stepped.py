@@ -1,67 +1,43 @@
 """The simulated rig with a finger of another section, and the frequency that its steps tell."""
 
-from dataclasses import replace
-
-from softgrip.actuator.bending import modified_moment
-from softgrip.actuator.frequency import rubber_mass
+from book.companion.choices import choice
 from softgrip.actuator.printed import section as printed_section
 from softgrip.actuator.printed import table_3_2
-from softgrip.actuator.section import Section, chamber_area, check_section, torque
+from softgrip.actuator.section import Section
 from softgrip.dynamics.identify import Identified, identify
-from softgrip.errors import InvalidInputError
 from softgrip.reads import remembered
-from softgrip.simulator.calibration import OPERATING_ANGLE, design_1
 from softgrip.simulator.chance import SEED
+from softgrip.simulator.fitted_rigs import design_1
 from softgrip.simulator.parameters import RigParameters
+from softgrip.simulator.scaled_section import with_section
+from softgrip.simulator.small_signal import small_signal_poles
 from softgrip.simulator.steps import simulate_step_test, travel_to
 
 RUNS = 7
 
 
 def rig_with(section: Section) -> RigParameters:
-    """Return the rig of Design 1 with another section of the same rubber and length.
-
-    Each parameter is that of Design 1 times what the models of Chapter 3 say of the change: the
-    torque by Eq. (3.4), the stiffness by I_n of Eq. (3.8), the inertia by the rubber's mass, the
-    air by the chamber's area; the damping ratio stays.
-
-    Raises:
-        InvalidInputError: If the section is no chamber or its torque is not positive.
-    """
-    check_section(section)
-    known = printed_section("Opt. parameters")
-    rig = design_1()
-    finger, n = rig.finger, rig.finger.fractional_power
-    pushes = torque(section, 1.0) / torque(known, 1.0)
-    if not pushes > 0:
-        raise InvalidInputError("section", expected="one with b > t", got=section)
-    stiffer = modified_moment(n, section.width, section.height) / modified_moment(
-        n, known.width, known.height
-    )
-    heavier = rubber_mass(section, 1.0, 1.0) / rubber_mass(known, 1.0, 1.0)
-    changed = replace(
-        finger,
-        torque_per_pressure=finger.torque_per_pressure * pushes,
-        stiffness=finger.stiffness * stiffer,
-        inertia=finger.inertia * heavier,
-        damping=finger.damping * (stiffer * heavier) ** 0.5,
-        rest_volume=finger.rest_volume * chamber_area(section) / chamber_area(known),
-    )
-    return replace(rig, fingers=(changed,))
+    """Return the rig of Design 1 with another section; as `with_section`."""
+    return with_section(design_1(), section, printed_section("Opt. parameters"))
 
 
-def identified_step(rig: RigParameters, *, angle: float = OPERATING_ANGLE) -> Identified:
-    """Identify the mean of seven simulated steps, pressure to angle, as Section 3.4 does.
+def frequency_step() -> float:
+    """Return the step whose frequency is identified, rad: fitted, as none is printed."""
+    return choice("frequency_step")
 
-    Args:
-        rig: Its parameters.
-        angle: At which the median run ends, rad.
-    """
-    test = simulate_step_test(rig, travel_to(rig, angle), runs=RUNS, seed=SEED)
+
+def small_motions() -> float:
+    """Return the natural frequency of Design 1 for small motions about that step's end, rad/s."""
+    return float(abs(small_signal_poles(design_1().finger, frequency_step())[0]))
+
+
+def identified_step(rig: RigParameters) -> Identified:
+    """Identify the mean of seven simulated steps, pressure to angle, as Section 3.4 does."""
+    test = simulate_step_test(rig, travel_to(rig, frequency_step()), runs=RUNS, seed=SEED)
     return identify(test.time, test.pressure, test.angle, initial_input=0.0)
 
 
 @remembered
 def identified_row(row: int) -> Identified:
-    """Identify simulated steps to 60 deg of the section of a row of Table 3.2, 1 to 4."""
+    """Identify simulated steps of the section of a row of Table 3.2, 1 to 4."""
     return identified_step(rig_with(table_3_2()[row - 1].section))

@@ -6,13 +6,20 @@ import numpy as np
 
 from book.chapter_4.identified_model import identified_model
 from book.chapter_4.pid_gains import pid_gains
-from softgrip.control.designs import STEP, linear_loop
+from book.companion.choices import choice
+from book.companion.simulated_logs import STEP_DURATION
+from softgrip.control.designs import linear_loop
 from softgrip.control.loop import SPEED_LIMIT, Controller, LoopResult
 from softgrip.control.pid import PID, Gains
 from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed, PressureByPlunger
+from softgrip.control.rig_controller import Tracking
 from softgrip.dynamics.second_order import full_state_space, state_space
 from softgrip.errors import InvalidInputError
 from softgrip.logs.steps import StepResponse, judge_step
+from softgrip.simulator.chance import SEED
+from softgrip.simulator.drive import drive
+from softgrip.simulator.fitted_rigs import design_1
+from softgrip.simulator.simulation import Simulation
 
 Name = Literal["actuator", "actuator by plunger", "full"]
 """The (4.14) design under its two readings of `control.pressure_command`, and the (4.15) one."""
@@ -48,10 +55,25 @@ def own_loop(design: str, gains: Gains | None = None, *, duration: float = 8.0) 
         system, limit = state_space(model.finger), SET_PRESSURE
     else:
         system, limit = full_state_space(model.finger, model.pump_gain), SPEED_LIMIT
-    return linear_loop(system, gains or pid_gains(design), limit, duration=duration)
+    step = choice("pid_step")
+    return linear_loop(system, gains or pid_gains(design), limit, step=step, duration=duration)
+
+
+def settled_on_rig(name: Name, step: float) -> float:
+    """Return the time in which a step, rad, settles on the simulated rig within the fitted band, s.
+
+    The median of seven runs.
+    """
+    rig = Simulation(design_1(), runs=7, seed=SEED)
+    made = drive(rig, Tracking(controller(name), step), duration=STEP_DURATION)
+    angle = made.measured.angle[:, 0].T
+    found = judge_step(made.time, angle, step, band=choice("pid_band"))
+    return float(np.median(found.settled))
 
 
 def own_step(design: str) -> StepResponse:
     """Judge the step of `own_loop`, as the step of a log is judged."""
-    found = own_loop(design, duration=20.0)
-    return judge_step(found.time, np.ravel(found.measured), STEP, window=0)
+    found = own_loop(design, duration=STEP_DURATION)
+    step = choice("pid_step")
+    band = choice("model_band") * step
+    return judge_step(found.time, np.ravel(found.measured), step, window=0, band=band)

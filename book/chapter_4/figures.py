@@ -8,6 +8,8 @@ from matplotlib.figure import Figure
 
 from book.chapter_4.controllers import own_loop
 from book.chapter_4.identified_model import identified_model
+from book.chapter_4.pushed import pushed
+from book.companion.band import LABEL, shade
 from book.companion.claims import printed, printed_text
 from book.companion.exhibit import figure
 from book.companion.style import (
@@ -27,7 +29,7 @@ from softgrip.control.minimum_time import farthest
 from softgrip.dynamics.second_order import full_state_space
 from softgrip.logs.gaps import intervals
 from softgrip.logs.pump import pump_of
-from softgrip.logs.pushes import compare, prior, reference_noise
+from softgrip.logs.pushes import prior, reference_noise
 from softgrip.logs.reader import kept_log, read_log
 from softgrip.provenance import Provenance, data_folder
 from softgrip.pump.capacity import estimate
@@ -93,7 +95,7 @@ def figure_4_4(logs: tuple[Path | str, ...] = ()) -> Figure:
 
 
 def _draw_push(axes: Any, path: Path | str, name: str) -> None:
-    found = compare(path)
+    found = pushed(path)
     axes.plot(found.time, found.measured / MPa, color=MEASURED, lw=3, label=str(found.provenance))
     axes.plot(found.time, found.constant / MPa, color=LINEAR, ls="--", label="constant")
     axes.plot(found.time, found.modified / MPa, color=OTHER, ls="-.", label="modified")
@@ -101,27 +103,30 @@ def _draw_push(axes: Any, path: Path | str, name: str) -> None:
     models = (found.constant, found.modified, found.filtered)
     errors = ", ".join(f"{100 * found.error(model):+.0f}" for model in models)
     axes.set_title(f"{name}\n{errors} %", fontsize=9.5)
-    axes.set(xlabel="time (s)", ylabel="MPa", ylim=(0, 0.17))
+    axes.set(xlabel="time (s)", ylabel="MPa", ylim=(0, None))
 
 
 @figure("4.A", Provenance.SIMULATED)
 def figure_4_a() -> Figure:
     """Draw the capacity by the printed filter and by the one that measures pressure."""
     drawn = Figure(figsize=(WIDTH, 3.2))
-    push, hold = compare(kept_log("push-a")), data_folder() / HOLD
+    noise, hold = reference_noise(), data_folder() / HOLD
+    push = pushed(kept_log("push-a"), noise)
     angle = read_log(kept_log("push-a"))["angle"]
     seen = push.estimated.capacity
     turned = open_loop_capacity(angle, 1.0, 0.0)
-    gain = float(turned @ (seen - push.capacity) / (turned @ turned))
+    # Where noise pushes the elastance below zero the filter has no capacity.
+    told = np.isfinite(seen)
+    gain = float(turned[told] @ (seen - push.capacity)[told] / (turned[told] @ turned[told]))
     first, second = drawn.subplots(1, 2, sharey=True)
     _draw_capacity(first, push.time, angle, seen, push.estimated.capacity_std, gain)
     log = read_log(hold)
     flow = pump_of(hold, log).displacement * log["command"]
-    model = ElastanceModel(log.header.period, reference_noise(), prior(push.capacity))
+    model = ElastanceModel(log.header.period, noise, prior(push.capacity))
     steps = intervals(log["time"], log.header.period)
     held = estimate(log["pressure"], flow, log["angle"], model, steps=steps)
     _draw_capacity(second, held.time, log["angle"], held.capacity, held.capacity_std, gain)
-    first.set(title="pushing", xlabel="time (s)", ylabel="capacity (mL/MPa)", ylim=(0, 2200))
+    first.set(title="pushing", xlabel="time (s)", ylabel="capacity (mL/MPa)", ylim=(0, 2600))
     second.set(title="holding 60 deg", xlabel="time (s)")
     first.legend(loc="upper left")
     return drawn
@@ -153,14 +158,16 @@ def figure_4_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     paths = logs or tuple(kept_log(name) for name in STEPS)
     titles = ("(a) designed on the finger alone", "(b) designed on finger and pump")
     for axes, path, design, title in zip(panels, paths, ("actuator", "full"), titles, strict=True):
+        if not logs:
+            shade(axes, f"pid-{design}", MEASURED, label=LABEL)
         _draw_log(axes, path, lw=1)
-        found = own_loop(design)
+        found = own_loop(design, duration=15.0)
         axes.plot(
             found.time, np.ravel(found.measured) / DEG, color=LUDWICK, ls="--", label="own model"
         )
-        axes.set(title=title, ylabel="angle (deg)", xlim=(0, 15), ylim=(-5, 110))
+        axes.set(title=title, ylabel="angle (deg)", xlim=(0, 15), ylim=(-5, None))
     axes.set_xlabel("time (s)")
-    drawn.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    drawn.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return drawn
 
 
@@ -176,9 +183,11 @@ def _draw_log(axes: Any, path: Path | str, *, lw: float | None) -> None:
 def figure_4_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     """Draw the staircase; ``logs`` gives one of another rig."""
     drawn, axes = sheet(3.2)
+    if not logs:
+        shade(axes, "staircase", MEASURED, label=LABEL)
     _draw_log(axes, (logs or (kept_log("staircase"),))[0], lw=None)
     axes.set(xlabel="time (s)", ylabel="angle (deg)")
-    axes.legend(loc="upper right")
+    drawn.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return drawn
 
 

@@ -1,5 +1,6 @@
 """How the simulated logs of Chapter 4 are made: pushes, two PID controllers, a staircase."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
@@ -7,12 +8,13 @@ import numpy as np
 
 from book.chapter_4.controllers import Name, controller
 from book.chapter_4.pid_gains import FILE
-from book.companion.simulated_logs import Recipe, tracked
+from book.companion.choices import choice
+from book.companion.simulated_logs import Recipe, step_of, tracked
 from softgrip.arrays import Floats
 from softgrip.control.pid import PERIOD
 from softgrip.control.staircase import staircase
-from softgrip.simulator.calibration import design_1
-from softgrip.simulator.parameters import PumpParameters
+from softgrip.simulator.fitted_rigs import design_1
+from softgrip.simulator.parameters import PumpParameters, RigParameters
 from softgrip.units import ML, MM, REV, MPa
 
 LARGEST = 0.15 * MPa
@@ -21,12 +23,18 @@ LARGEST = 0.15 * MPa
 
 def _push(area: float, lead: float, syringe: float, speed: float, words: str) -> Recipe:
     """Return a push at one speed, from 60 mL of air in the syringe until these are swept."""
-    pump = replace(PumpParameters(), area=area, lead=lead, syringe_volume=syringe)
+    sizes = {"area": area, "lead": lead, "syringe_volume": syringe}
+    pump = PumpParameters(**sizes)
     seconds = 60 * ML / (area * pump.advance * speed) + 1.0
+
+    def rig() -> RigParameters:
+        own = design_1()
+        return replace(own, pump=replace(own.pump, **sizes))
+
     return Recipe(
         np.full(round(seconds / PERIOD), speed),
         words,
-        rig=lambda: replace(design_1(), pump=pump),
+        rig=rig,
         plunger=(syringe - 60 * ML) / area,
         until=LARGEST,
     )
@@ -41,16 +49,22 @@ PUSHES = {
 }
 
 
-def _pid(design: Name, words: str, reference: Floats | None = None) -> Recipe:
+def _stairs() -> Floats:
+    increment = choice("stair_increment")
+    return staircase(increment=increment, top=6 * increment, period=PERIOD)
+
+
+def _pid(design: Name, words: str, reference: Callable[[], Floats]) -> Recipe:
     return tracked(partial(controller, design), design, FILE, words, reference=reference)
 
 
+_step = partial(step_of, "pid_step")
+
+
 CONTROLLED = {
-    "pid-actuator": _pid("actuator", "Figure 4.5 (a): 60 deg, PID designed on Eq. (4.14)"),
-    "pid-full": _pid("full", "Figure 4.5 (b): 60 deg, PID designed on Eq. (4.15)"),
-    "staircase": _pid(
-        "full", "Figure 4.7: staircase, PID designed on Eq. (4.15)", staircase(period=PERIOD)
-    ),
+    "pid-actuator": _pid("actuator", "Figure 4.5 (a): PID designed on Eq. (4.14)", _step),
+    "pid-full": _pid("full", "Figure 4.5 (b): PID designed on Eq. (4.15)", _step),
+    "staircase": _pid("full", "Figure 4.7: staircase, PID designed on Eq. (4.15)", _stairs),
 }
 LOGS = {name: recipe.write for name, recipe in (PUSHES | CONTROLLED).items()}
 """What writes each log, by name, to a path, with the command that makes it."""

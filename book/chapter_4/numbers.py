@@ -10,12 +10,12 @@ import numpy as np
 
 from book.chapter_4.controllers import own_loop
 from book.chapter_4.pid_gains import pid_gains
+from book.chapter_4.pushed import pushed
+from book.companion.choices import choice
 from book.companion.verdict import simulated
-from softgrip.control.designs import STEP
 from softgrip.control.pid import Gains, pid_state_space
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.second_order import SecondOrder, full_state_space
-from softgrip.logs.pushes import compare
 from softgrip.logs.staircase import judge_staircase
 from softgrip.logs.steps import StepResponse, judge_step, judge_step_log
 from softgrip.provenance import data_folder
@@ -60,7 +60,7 @@ def model_error(model: str, log: str = "push-a") -> float:
 
     ``model`` is "constant", "modified" or "filtered".
     """
-    found = compare(data_folder() / "simulated" / f"{log}.csv")
+    found = pushed(data_folder() / "simulated" / f"{log}.csv")
     return abs(100 * found.error(getattr(found, model)))
 
 
@@ -76,22 +76,20 @@ def growth_when_compressed(pressure: float = ATMOSPHERE, softening: float = 0.0)
 
 
 @simulated
-def settling_on_model(
-    design: str, criterion: str = "settled_5_percent", share: float = 1.0
-) -> float:
+def settling_on_model(design: str, criterion: str = "settled", share: float = 1.0) -> float:
     """Return the settling time of a PID on the linear model it was designed on, in s.
 
     Args:
         design: "actuator" or "full"; the model is identified from logs of the simulated rig.
         criterion: Name of a field of `StepResponse`.
-        share: Of the tuned gains, which are those for the least time-weighted error.
+        share: Of the gains.
     """
     tuned = pid_gains(design)
     gains = replace(tuned, kp=share * tuned.kp, ki=share * tuned.ki, kd=share * tuned.kd)
-    found = own_loop(design, gains, duration=20.0)
-    return float(
-        getattr(judge_step(found.time, np.ravel(found.measured), STEP, window=0), criterion)
-    )
+    found, step = own_loop(design, gains, duration=20.0), choice("pid_step")
+    band = choice("model_band") * step
+    judged = judge_step(found.time, np.ravel(found.measured), step, window=0, band=band)
+    return float(getattr(judged, criterion))
 
 
 def settling_by_author(
@@ -129,13 +127,15 @@ def gain_ratio(kp: float, ki: float, kd: float) -> float:
 
 
 def _step_log(design: str) -> StepResponse:
-    return judge_step_log(data_folder() / "simulated" / f"pid-{design}.csv")
+    return judge_step_log(
+        data_folder() / "simulated" / f"pid-{design}.csv", band=choice("pid_band")
+    )
 
 
 @simulated
 def settling_on_rig(design: str) -> float:
-    """Return the time after which the simulated rig stays within 5 deg of 60 deg, in s."""
-    return float(_step_log(design).settled_5_deg)
+    """Return the time after which the simulated rig stays at its set point, s; both are fitted."""
+    return float(_step_log(design).settled)
 
 
 @simulated

@@ -1,15 +1,25 @@
 """The gains of the two PID controllers of Chapter 4; ``python -m book.chapter_4.pid_gains``.
 
-The command identifies the rig from its logs, designs both controllers on what it found and writes
-``data/control/pid_gains.csv``. The logs of the controllers are made with what stands there.
+The command identifies the rig from its logs, and writes ``data/control/pid_gains.csv``: the gains
+of Ziegler and Nichols on what it found, and these times what "trial and error" made of them. No
+gain is printed; the factors are fitted, with the rig, to the settling times and errors that are.
+The logs of the controllers are made with what stands there.
 """
 
 from collections.abc import Iterator
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 
 from book.chapter_4.identified_model import IdentifiedModel, identified_model
-from softgrip.control.designs import Design, actuator_design, full_design
+from book.companion.choices import choice
+from softgrip.control.designs import unit_step
 from softgrip.control.pid import Gains
+from softgrip.control.ziegler_nichols import (
+    ReactionCurve,
+    integrating_reaction_curve,
+    reaction_curve,
+    ziegler_nichols,
+)
+from softgrip.dynamics.second_order import full_state_space, state_space
 from softgrip.errors import UnknownNameError
 from softgrip.kept import Kept
 
@@ -39,19 +49,22 @@ class Row:
     derivative_filter: float
 
 
-def designs(model: IdentifiedModel, *, evaluations: int = 300) -> dict[str, Design]:
-    """Design both controllers on an identified model, by the keys of `MODELS`."""
+def curves(model: IdentifiedModel) -> dict[str, ReactionCurve]:
+    """Return the reaction curves of both models, by the keys of `MODELS`."""
+    finger, whole = state_space(model.finger), full_state_space(model.finger, model.pump_gain)
     return {
-        "actuator": actuator_design(model.finger, evaluations=evaluations),
-        "full": full_design(model.finger, model.pump_gain, evaluations=evaluations),
+        "actuator": reaction_curve(*unit_step(finger)),
+        "full": integrating_reaction_curve(*unit_step(whole)),
     }
 
 
 def rows() -> Iterator[Row]:
     """Design the controllers on the rig that is identified from the kept logs."""
-    for name, design in designs(identified_model()).items():
+    for name, curve in curves(identified_model()).items():
         unit = "Pa" if name == "actuator" else "rad/s"
-        for stage, gains in zip(STAGES, (design.tuned.start, design.gains), strict=True):
+        rule = ziegler_nichols(curve)
+        own = {k: getattr(rule, k) * choice(f"{name}_{k}") for k in ("kp", "ki", "kd")}
+        for stage, gains in zip(STAGES, (rule, replace(rule, **own)), strict=True):
             yield Row(name, MODELS[name], stage, unit, *astuple(gains))
 
 

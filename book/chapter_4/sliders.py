@@ -1,16 +1,19 @@
 """What the sliders of Chapter 4 draw."""
 
+from dataclasses import replace
+
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 
 from book.chapter_4.controllers import own_loop
 from book.chapter_4.pid_gains import pid_gains
+from book.chapter_4.pushed import pushed
+from book.companion.choices import choice
 from book.companion.style import GREY, LINEAR, LUDWICK, MEASURED, PRINTED, VERMILION, still, style
-from softgrip.control.designs import STEP
 from softgrip.control.pid import Gains
 from softgrip.control.step_metrics import settling_time
-from softgrip.logs.pushes import compare
+from softgrip.logs.pushes import reference_noise
 from softgrip.logs.reader import kept_log
 from softgrip.pump.finger import Finger
 from softgrip.pump.flow import TABLE_4_1, Pump, flow
@@ -33,19 +36,19 @@ def draw_pump(syringe: str, lead: float, speed: float) -> Figure:
         lead: mm.
         speed: Motor speed, rev/s.
     """
-    pushed = flow(speed * REV, Pump(AREAS[syringe], lead * MM))
+    air = flow(speed * REV, Pump(AREAS[syringe], lead * MM))
     full = VOLUMES[syringe]
     gas = full + BESIDE
-    time = np.linspace(0, min(20.0, 0.92 * full / pushed), 80)
-    linear = pressure(time, pushed, capacity(ATMOSPHERE, gas))
-    exact = closed_volume_pressure(pushed * time, gas) - ATMOSPHERE
+    time = np.linspace(0, min(20.0, 0.92 * full / air), 80)
+    linear = pressure(time, air, capacity(ATMOSPHERE, gas))
+    exact = closed_volume_pressure(air * time, gas) - ATMOSPHERE
     with style():
         drawn, axes = still(3.0)
         axes.plot(time, exact / MPa, color=MEASURED, label=f"gas law, {gas / ML:.0f} mL closed")
         axes.plot(time, linear / MPa, color=LINEAR, ls="--", label="Eq. (4.5), C constant")
         axes.axhline(0.15, color=GREY, lw=1, ls=":")
         axes.set(xlabel="time (s)", ylabel="pressure (MPa)", xlim=(0, 20), ylim=(0, 0.2))
-        axes.set_title(f"{pushed / ML:.1f} mL/s")
+        axes.set_title(f"{air / ML:.1f} mL/s")
         axes.xaxis.set_major_locator(MultipleLocator(5))
         axes.legend(loc="lower right")
     return drawn
@@ -57,7 +60,9 @@ def draw_filter(noise: float) -> Figure:
     Args:
         noise: Factor on the estimated noise of the elastance.
     """
-    found = compare(kept_log("push-a"), noise_factor=noise)
+    levels = reference_noise()
+    scaled = replace(levels, elastance_step=noise * levels.elastance_step)
+    found = pushed(kept_log("push-a"), scaled)
     seen, std = found.estimated.capacity, found.estimated.capacity_std
     unit = ML / MPa
     with style():
@@ -108,13 +113,13 @@ def draw_pid(kp: float, ki: float, kd: float) -> Figure:
     """
     tuned = pid_gains("full")
     gains = Gains(kp * tuned.kp, ki * tuned.ki, kd * tuned.kd, tuned.derivative_filter)
-    found = own_loop("full", gains)
+    found, step = own_loop("full", gains), choice("pid_step")
     angle = np.ravel(found.measured)
-    settled = float(settling_time(found.time, angle, final=STEP, band=0.05))
+    settled = float(settling_time(found.time, angle, final=step, band=0.05))
     with style():
         drawn, axes = still(3.0)
-        axes.axhspan(0.95 * STEP / DEG, 1.05 * STEP / DEG, color=PRINTED, alpha=0.2, lw=0)
+        axes.axhspan(0.95 * step / DEG, 1.05 * step / DEG, color=PRINTED, alpha=0.2, lw=0)
         axes.plot(found.time, angle / DEG, color=LUDWICK)
         words = f"within 5 % after {settled:.1f} s" if settled < 8 else "not within 5 % in 8 s"
-        axes.set(xlabel="time (s)", ylabel="angle (deg)", xlim=(0, 8), ylim=(0, 110), title=words)
+        axes.set(xlabel="time (s)", ylabel="angle (deg)", xlim=(0, 8), ylim=(0, 160), title=words)
     return drawn

@@ -7,25 +7,35 @@ import numpy as np
 import pandas as pd
 
 from book.chapter_4.controllers import own_step
+from book.companion.choices import choice
 from book.companion.exhibit import table
 from softgrip.logs.reader import kept_log, read_log
 from softgrip.logs.steps import judge_step_log
-from softgrip.provenance import Provenance
+from softgrip.provenance import Provenance, data_file
 from softgrip.pump.finger import Finger
 from softgrip.pump.flow import TABLE_4_1, Pump, flow
 from softgrip.pump.sizing import Sizing, sizings
-from softgrip.simulator.calibration_table import KEPT
-from softgrip.units import DEG, ML, MM, REV, MPa
+from softgrip.simulator.fitted_rigs import DESIGN_1, design_1
+from softgrip.simulator.free_parameters import unit_of
+from softgrip.simulator.laws import finger_volume
+from softgrip.simulator.rig_file import Line, read_rig
+from softgrip.simulator.statics import FULL_PRESSURE, settled_angle
+from softgrip.units import DEG, ML, MM, REV
 
-FINGER = Finger(
-    gauge_pressure=0.15 * MPa,
-    volume_at_rest=26.6 * ML,
-    volume_at_pressure=32.7 * ML,
-    dead_volume=2 * ML,
-    rise_time=4.0,
-)
-"""The finger of the simulated rig, and a rise time to ask for."""
 LEAST_MARGIN = 1.5
+
+
+def finger_to_drive() -> Finger:
+    """Return the finger of the simulated rig, at the end of Figure 3.10, and a rise time to ask."""
+    rig = design_1()
+    angle = settled_angle(rig.finger, FULL_PRESSURE)
+    return Finger(
+        gauge_pressure=FULL_PRESSURE,
+        volume_at_rest=rig.finger.rest_volume,
+        volume_at_pressure=finger_volume(angle, FULL_PRESSURE, rig.finger),
+        dead_volume=rig.gas.dead_volume,
+        rise_time=4.0,
+    )
 
 
 @table("4.1", Provenance.PRINTED)
@@ -68,7 +78,7 @@ def table_4_a() -> pd.DataFrame:
             "torque over need": f"{s.margin:.2f}",
             "can do it": "yes" if s.feasible else f"no: {_lacking(s)}",
         }
-        for s in sizings(FINGER, least_margin=LEAST_MARGIN)
+        for s in sizings(finger_to_drive(), least_margin=LEAST_MARGIN)
     )
 
 
@@ -84,19 +94,21 @@ def _lacking(judged: Sizing) -> str:
 
 @table("4.B", Provenance.SIMULATED)
 def table_4_b() -> pd.DataFrame:
-    """Tabulate the calibration of the simulated rig."""
+    """Tabulate the parameters of the simulated rig, with what the prints leave to them."""
     return pd.DataFrame(
         {
-            "use": entry.use,
-            "place": entry.place,
-            "quantity": entry.quantity,
-            "printed": entry.printed,
-            "rig": f"{entry.rig:.4g}",
-            "unit": entry.unit,
-            "sets": entry.parameter,
+            "parameter": line.name,
+            "unit": unit_of(line.name),
+            "value": f"{line.value:.4g}",
+            "90 % interval": _interval(line),
+            "by the prints": line.status,
         }
-        for entry in KEPT.read()
+        for line in read_rig(data_file(DESIGN_1).path).lines
     )
+
+
+def _interval(line: Line) -> str:
+    return "" if line.low is None else f"{line.low:.3g} to {line.high:.3g}"
 
 
 @table("4.C", Provenance.SIMULATED)
@@ -107,7 +119,8 @@ def table_4_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
     names = {"actuator": "finger alone (4.14)", "full": "finger and pump (4.15)"}
     for (design, words), path in zip(names.items(), paths, strict=True):
         rig = f"{read_log(path).header.provenance} rig"
-        for place, response in (("own model", own_step(design)), (rig, judge_step_log(path))):
+        judged = judge_step_log(path, band=choice("pid_band"))
+        for place, response in (("own model", own_step(design)), (rig, judged)):
             rows.append(
                 {
                     "designed on": words,
@@ -116,6 +129,7 @@ def table_4_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
                     "5 %": _seconds(response.settled_5_percent),
                     "2 deg": _seconds(response.settled_2_deg),
                     "5 deg": _seconds(response.settled_5_deg),
+                    "fitted band": _seconds(response.settled),
                     "error (deg)": f"{float(response.steady_state_error) / DEG:+.1f}",
                 }
             )

@@ -8,8 +8,17 @@ from matplotlib.figure import Figure
 
 from book.chapter_5 import step_protocols, step_sweep
 from book.chapter_5.numbers import BOUND, printed_rms
-from book.chapter_5.step_models import ANGLES, FINGERS, KINDS, compare, identified_at, rms_error
+from book.chapter_5.step_models import (
+    ANGLES,
+    FINGERS,
+    KINDS,
+    answer,
+    compare,
+    identified_at,
+    rms_error,
+)
 from book.chapter_5.step_protocols import stated_stiffness
+from book.companion.band import LABEL, shade
 from book.companion.exhibit import figure, table
 from book.companion.style import (
     BLUE,
@@ -36,7 +45,7 @@ COLOURS = {"linear": (LINEAR, "-."), "ludwick": (LUDWICK, "--")}
 WORDS = {"linear": "linear (5.17)", "ludwick": "Ludwick (5.16)"}
 STATED_LIMITS = (60, 80, 90)
 """deg: up to which Sections 5.5, 6.3 and 7.1, and 3.4 call the linear model valid."""
-SHORT = ("at 60", "n of 5.2", "n of 5.1", "each", "at 30", "step", "stated K")
+SHORT = ("at 60", "matched", "n of 5.2", "n of 5.1", "each", "at 30", "step", "stated K")
 """Names of `step_protocols.PROTOCOLS` that fit above a column."""
 LIMITS = (0.05, 0.10)
 """Errors of the closed form that Figure 5.D marks."""
@@ -62,16 +71,23 @@ def _draw(design: str, logs: tuple[Path | str, ...]) -> Figure:
         raise InvalidInputError("logs", expected="runs of two tests, one half each", got=len(paths))
     half = len(paths) // 2
     tests, models = compare(design, (paths[:half], paths[half:]))
-    drawn = Figure(figsize=(WIDTH, 5.6))
-    titles = (f"(a) {ANGLES[0]} deg, fitted to", f"(b) {ANGLES[1]} deg, predicted")
-    for axes, test, title in zip(drawn.subplots(2, 1, sharex=True), tests, titles, strict=True):
+    drawn = Figure(figsize=(WIDTH, 5.8))
+    titles = (f"(a) {ANGLES[0]} deg, fitted to", f"(b) {ANGLES[1]} deg")
+    panels = drawn.subplots(2, 1, sharex=True)
+    for axes, test, title, angle in zip(panels, tests, titles, ANGLES, strict=True):
+        if not logs:
+            shade(axes, f"{FINGERS[design].logs}-{angle}", MEASURED, label=LABEL)
         for k, run in enumerate(test.angles):
             label = "" if k else "runs"
             axes.plot(test.time, run / DEG, color=GREY, lw=0.4, alpha=0.6, label=label)
         axes.plot(test.time, test.angle / DEG, color=MEASURED, label="their mean")
+        unmatched = models["linear"].response(test.time, test.pressure)
+        axes.plot(
+            test.time, unmatched / DEG, color=LINEAR, ls=":", lw=1, label="linear, gain of (a)"
+        )
         errors = []
         for kind in KINDS:
-            model = models[kind].response(test.time, test.pressure)
+            model = answer(kind, models[kind], test)
             colour, dash = COLOURS[kind]
             axes.plot(test.time, model / DEG, color=colour, ls=dash, label=WORDS[kind])
             errors.append(f"{rms_error(model, test) / DEG:.1f}")
@@ -107,12 +123,14 @@ def figure_5_c() -> Figure:
         points = [point for point in step_sweep.KEPT.read() if point.design == design]
         angles = np.array([point.angle for point in points])
         for name, label, colour, marks in lines:
-            errors = [getattr(point, name) for point in points]
-            axes.plot(angles, errors, marks, color=colour, ms=4, label=label)
+            errors = np.array([getattr(point, name) for point in points])
+            # A step that tells no model has no error.
+            told = np.isfinite(errors)
+            axes.plot(angles[told], errors[told], marks, color=colour, ms=4, label=label)
         axes.axhline(BOUND, color=GREY, ls=":")
         for limit in STATED_LIMITS:
             axes.axvline(limit, color=GREY, ls=":")
-        axes.set(yscale="log", ylim=(0.1, 100), ylabel="RMS error (deg)")
+        axes.set(yscale="log", ylim=(0.02, 400), ylabel="RMS error (deg)")
         axes.set_title(f"{design}, {FINGERS[design].material}")
     axes.set_xlabel("size of the step (deg)")
     drawn.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=1)

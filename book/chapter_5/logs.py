@@ -1,28 +1,46 @@
 """How the simulated logs of Chapter 5 are made: seven steps of two fingers to two angles each."""
 
+from collections.abc import Callable
+from functools import partial
+
 from book.companion.simulated_logs import Recipe
-from softgrip.simulator.calibration import design_1, design_3
-from softgrip.simulator.steps import step_commands
-from softgrip.units import MM
+from softgrip.arrays import Floats
+from softgrip.reads import remembered
+from softgrip.simulator.fitted_rigs import design_1, design_3
+from softgrip.simulator.parameters import RigParameters
+from softgrip.simulator.steps import step_commands, travel_to
+from softgrip.units import DEG, MM
 
 RUNS = 7
-STEP_PLUNGER = {60: 11.1 * MM, 90: 25.3 * MM}
-STEP_PLUNGER_FX = {60: 24.1 * MM, 90: 39.2 * MM}
-"""Travel of the plunger that settles the median finger at about these angles, deg: of Dragon Skin
-20, and of FX-Pro. They are `steps.travel_to`, to a tenth of a millimetre."""
+ANGLES = (60, 90)
+"""deg."""
+
+
+@remembered
+def step_plunger(design: Callable[[], RigParameters], degrees: int) -> float:
+    """Return the travel of the plunger that ends a median finger's step at about an angle, m.
+
+    To a tenth of a millimetre.
+    """
+    return round(travel_to(design(), degrees * DEG) / (0.1 * MM)) * 0.1 * MM
+
+
+def _commands(design: Callable[[], RigParameters], degrees: int) -> Floats:
+    return step_commands(step_plunger(design, degrees))
+
 
 STEPS = {
     f"{name}-{degrees}-{run + 1}": Recipe(
-        step_commands(plunger),
+        partial(_commands, design, degrees),
         f"open-loop step to about {degrees} deg{finger}",
         rig=design,
         run=run,
     )
-    for name, travels, design, finger in (
-        ("step", STEP_PLUNGER, design_1, ""),
-        ("step-fx", STEP_PLUNGER_FX, design_3, " of the finger of Dragon Skin FX-Pro"),
+    for name, design, finger in (
+        ("step", design_1, ""),
+        ("step-fx", design_3, " of the finger of Dragon Skin FX-Pro"),
     )
-    for degrees, plunger in travels.items()
+    for degrees in ANGLES
     for run in range(RUNS)
 }
 LOGS = {name: recipe.write for name, recipe in STEPS.items()}

@@ -8,6 +8,7 @@ import numpy as np
 
 from book.chapter_5 import step_sweep
 from book.chapter_5.step_models import ANGLES, FINGERS, KINDS, Kind, identified_at, step_test_error
+from book.companion.choices import choice
 from book.companion.claims import claim_of
 from book.companion.verdict import simulated
 from softgrip.dynamics.consistency import agreement
@@ -15,7 +16,7 @@ from softgrip.materials import ludwick
 from softgrip.materials.facts import facts
 from softgrip.materials.fitting import Fitting, Modulus, Stress, fractional_power
 from softgrip.materials.powerlaw import FractionalPowerRegressor
-from softgrip.units import MPa
+from softgrip.units import DEG, MPa
 
 WORDS: dict[Kind, str] = {"linear": "linear", "ludwick": "Ludwick"}
 TESTS = {
@@ -123,8 +124,14 @@ def allowed_fit(
 
 
 @simulated
-def linear_limit(design: str, bound: float = BOUND) -> float:
-    """Return up to which step one linear model stays within a bound on the simulated rig, deg."""
+def linear_limit(design: str, bound: float | None = None) -> float:
+    """Return up to which step one linear model will do on the simulated rig, deg.
+
+    Args:
+        design: Chapter 5's name.
+        bound: RMS error up to which it does, deg; None for the fitted one.
+    """
     points = [point for point in step_sweep.KEPT.read() if point.design == design]
     errors = [point.linear_range for point in points]
-    return float(np.interp(bound, errors, [point.angle for point in points]))
+    most = choice("linear_bound") / DEG if bound is None else bound
+    return float(np.interp(most, errors, [point.angle for point in points]))

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from itertools import chain
+from math import ceil
 
 import numpy as np
 
@@ -15,12 +16,19 @@ from book.chapter_5.matched_model import (
     resting_angle,
     settings,
 )
-from book.chapter_5.numbers import BOUND, fitted_power, hundred_percent_modulus, linear_limit
+from book.chapter_5.numbers import (
+    BOUND,
+    fitted_power,
+    hundred_percent_modulus,
+    linear_limit,
+    printed_rms,
+)
 from book.chapter_5.step_models import ANGLES, FINGERS, Kind, identified_at, kept_test
 from book.chapter_5.step_models import step_test_error as error
-from book.chapter_5.step_protocols import SMALL, stated_stiffness
+from book.chapter_5.step_protocols import SMALL, kept_errors, stated_stiffness
 from book.chapter_5.step_sweep import ANGLES as STEPS
 from book.chapter_5.step_sweep import KEPT
+from book.companion.choices import choice
 from book.companion.claims import claim_of, printed
 from book.companion.verdict import recomputed
 from softgrip.actuator.cantilever import angle_limit
@@ -30,8 +38,7 @@ from softgrip.materials.facts import facts
 from softgrip.materials.fitting import comes_out, grid
 from softgrip.materials.leave_out import RIVALS, leave_k_out
 from softgrip.materials.table import table_5_1
-from softgrip.simulator.calibration import design_1
-from softgrip.simulator.parameters import SensorParameters
+from softgrip.simulator.fitted_rigs import design_1
 from softgrip.units import DEG, MPa
 
 EARLY = ("Dragon Skin 20", "Dragon Skin 30", "SORTA-Clear 40")
@@ -69,6 +76,26 @@ def _errors() -> list[float]:
     return [100 * abs(one.error / one.printed) for one in leave_k_out(1).predictions]
 
 
+def _off() -> list[float]:
+    """Return by how much the eight errors are off the printed ones, %, the farthest first."""
+    pairs = ((error(*_case(case)), own) for case, own in printed_rms().items())
+    return sorted((100 * abs(found / own - 1) for found, own in pairs), reverse=True)
+
+
+def _case(case: tuple[str, int, Kind]) -> tuple[str, Kind, int]:
+    design, angle, kind = case
+    return design, kind, angle
+
+
+def _unmatched(design: str) -> float:
+    """Return the error of the linear model with its gain of the first test at the second, deg."""
+    return kept_errors()["identified at 60 deg"][design, ANGLES[1], "linear"]
+
+
+def _again_at(angle: int) -> list[float]:
+    return [point.ludwick_again for point in KEPT.read() if point.angle == angle]
+
+
 def _end(design: str, kind: Kind) -> float:
     """Return where a model of the second test ends, less the mean of the runs, deg."""
     test = kept_test(design, ANGLES[1])
@@ -83,7 +110,8 @@ def _largest(design: str) -> float:
 
 def _again() -> int:
     """Return the step, deg, up to which the linear model identified anew keeps `BOUND`."""
-    beyond = min(point.angle for point in KEPT.read() if point.linear_again > BOUND)
+    # NaN, where a step tells no linear model, does not keep it.
+    beyond = min(point.angle for point in KEPT.read() if not point.linear_again <= BOUND)
     return max(step for step in STEPS if step < beyond)
 
 
@@ -144,7 +172,7 @@ WORDS = {
     "worst": lambda: f"{max(_errors()):.0f}",
     # The equations: factors, and deg for parts in %.
     "power": lambda: f"{POWER}",
-    "rig_power": lambda: f"{design_1().finger.fractional_power:g}",
+    "rig_power": lambda: f"{design_1().finger.fractional_power:.2f}",
     "limits": lambda: _pair(100 * part for part in dynamics.LIMITS),
     "limit": lambda: f"{100 * dynamics.LIMITS[0]:.0f}",
     "other_limit": lambda: f"{100 * dynamics.LIMITS[1]:.0f}",
@@ -163,24 +191,30 @@ WORDS = {
     "small": lambda: f"{SMALL}",
     "confidence": lambda: f"{100 * CONFIDENCE:g}",
     "linear_climbs": lambda: f"{_largest('Design 1'):.0f}",
-    "ludwick_above": lambda: f"{_end('Design 1', 'ludwick'):.0f}",
-    "ludwick_below": lambda: f"{-_end('Design 2', 'ludwick'):.0f}",
+    "ludwick_ends_1": lambda: f"{ceil(abs(_end('Design 1', 'ludwick')))}",
+    "ludwick_ends_2": lambda: f"{ceil(abs(_end('Design 2', 'ludwick')))}",
+    "sensor_end": lambda: f"{design_1().sensors.angle_range / DEG:.0f}",
     "linear_above": lambda: f"{_end('Design 2', 'linear'):.0f}",
-    "linear_misses": lambda: _pair(error(x, "linear", ANGLES[1]) for x in FINGERS),
+    "linear_misses": lambda: _pair(map(_unmatched, FINGERS)),
+    "farthest": lambda: f"{_off()[0]:.0f}",
+    "others_within": lambda: f"{ceil(_off()[1])}",
+    "without_sensors": lambda: _pair(_again_at(ANGLES[0]), ".1f"),
     "more_pressure": lambda: f"{(ANGLES[1] / ANGLES[0]) ** POWER:.1f}",
     "linear_answers": lambda: f"{resting_angle(*ANGLES, POWER):.0f}",
     "rests": lambda: _span(resting_angle(*ANGLES, n) for _, n in _powers()),
     "share_at_rest": lambda: f"{100 * max(_share_at_rest(*one) for one in _powers()):.0f}",
     "settings": lambda: f"{len(_shared())}",
     "grows_in": lambda: f"{_grows_in()}",
-    "noise": lambda: f"{SensorParameters().angle_noise / DEG:g}",
-    "mean_noise": lambda: f"{SensorParameters().angle_noise / DEG / RUNS**0.5:.2f}",
+    "noise": lambda: f"{design_1().sensors.angle_noise / DEG:.1f}",
+    "mean_noise": lambda: f"{design_1().sensors.angle_noise / DEG / RUNS**0.5:.1f}",
     "fit_allowed": lambda: f"{recomputed(5, '5.3-average-fit-allowed').value:.1f}",
     "percent": lambda: f"{recomputed(5, '5.4-percent-design-1--90-deg--linear').value:.1f}",
     # How far a straight line goes: deg.
     "bound": lambda: f"{BOUND:g}",
     "stated_limits": lambda: "{}, {} and {}".format(*dynamics.STATED_LIMITS),
-    "ranges": lambda: _pair(map(linear_limit, FINGERS)),
+    "ranges": lambda: _pair(linear_limit(design, BOUND) for design in FINGERS),
+    "fitted_bound": lambda: f"{choice('linear_bound') / DEG:.1f}",
+    "fitted_ranges": lambda: _pair(map(linear_limit, FINGERS)),
     "away": lambda: f"{STEPS[1] - STEPS[0]}",
     "again": lambda: f"{_again()}",
     # Figures that the text refers to by another's number.

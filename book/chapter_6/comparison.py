@@ -12,6 +12,7 @@ from book.chapter_6.controllers import (
     printed_model,
     target_angles,
 )
+from book.companion.choices import choice
 from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.rig_controller import RigController
@@ -22,8 +23,8 @@ from softgrip.gripper.synchronization import synchronization_error
 from softgrip.reads import remembered
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import Driven, drive
-from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION
-from softgrip.simulator.gripper_parameters import printed_gripper
+from softgrip.simulator.fitted_rigs import printed_gripper
+from softgrip.simulator.gripper_steps import OPEN_LOOP_DURATION
 from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG
@@ -37,6 +38,12 @@ CRITERIA: dict[str, tuple[float, bool]] = {
     "2 deg": (2 * DEG, True),
 }
 """Half width of the band about the end of a response, and whether it is in rad."""
+
+
+def criteria() -> dict[str, tuple[float, bool]]:
+    """Return `CRITERIA` and the fitted one, as none is printed."""
+    return CRITERIA | {"fitted": (choice("gripper_band"), False)}
+
 
 ENTRIES: dict[str, Callable[[], RigController]] = {
     "open loop": lambda: gripper_controller("open loop"),
@@ -79,7 +86,7 @@ def judge(run: Driven, targets: Floats) -> Judged:
     ends = final_value(run.time, angles)
     settling = {
         name: settling_time(run.time, angles, final=ends, band=band, absolute=absolute).max(axis=0)
-        for name, (band, absolute) in CRITERIA.items()
+        for name, (band, absolute) in criteria().items()
     }
     return Judged(
         settling,

@@ -6,6 +6,7 @@ from typing import Literal
 import control
 import numpy as np
 
+from book.companion.choices import choice
 from softgrip.arrays import Floats
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import Weights, lqr_gain
@@ -15,15 +16,15 @@ from softgrip.dynamics.second_order import SecondOrder
 from softgrip.gripper.internal_model import PERIOD, InternalModelController, controller_matrices
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.optimal_feedforward import FeedforwardProgram, OptimalFeedforward
-from softgrip.gripper.plant import Gripper
+from softgrip.gripper.plant import LEFT, RIGHT, Gripper
 from softgrip.gripper.printed_loop import FILTERS
 from softgrip.gripper.reach import project
 from softgrip.gripper.shaping_filter import filter_state_space
 from softgrip.logs.fingers import identified_gripper, read_runs
 from softgrip.provenance import data_file
 from softgrip.reads import remembered
-from softgrip.simulator.gripper_calibration import push_commands
-from softgrip.simulator.gripper_parameters import LEFT, RIGHT, TRAVEL, printed_gripper
+from softgrip.simulator.fitted_rigs import printed_gripper
+from softgrip.simulator.gripper_steps import push_commands
 from softgrip.units import DEG
 
 WANTED = 45 * DEG
@@ -66,6 +67,12 @@ def best_command(model: Gripper) -> OptimalFeedforward:
     return next(FeedforwardProgram(model, target, limit=SPEED_LIMIT).trade_off())
 
 
+def open_loop_commands(speed: float | None = None) -> Floats:
+    """Return the commands of the step in open loop, rad/s; at the speed of the fast one if None."""
+    fast = choice("gripper_speed") if speed is None else speed
+    return push_commands(choice("gripper_travel"), printed_gripper().pump, fast)
+
+
 def gripper_controller(
     name: Name, *, model: Gripper | None = None, limit: float = np.inf
 ) -> RigController:
@@ -77,7 +84,7 @@ def gripper_controller(
         limit: Of the motor, rad/s, as far as the scheme of Figure 6.3 knows of it.
     """
     if name == "open loop":
-        return CommandSequence(push_commands(TRAVEL, printed_gripper().pump))
+        return CommandSequence(open_loop_commands())
     known = own_model() if model is None else model
     if name == "optimal feedforward":
         return CommandSequence(np.round(best_command(known).command, SPEED_DIGITS))

@@ -42,7 +42,7 @@ def figure_6_8() -> Figure:
         for (name, stiffness), colour, dash in looks:
             held = grasp(stiffness, drive)
             axes.plot(held.time, held.forces[0], dash, color=colour, label=name)
-        axes.set(xlabel="time (s)", ylabel="force (N)", xlim=(0, 5), ylim=(-0.02, 0.9))
+        axes.set(xlabel="time (s)", ylabel="force (N)", xlim=(0, 5))
     _hand(panels["a"], grasp(STIFFNESS["soft"], scheme))
     drives = zip(DRIVES, (ORANGE, VERMILION, BLUE), ("-", "--", "-."), strict=True)
     place = panels["d"]
@@ -55,8 +55,8 @@ def figure_6_8() -> Figure:
     panels["b"].set_title("(b) coordinated")
     panels["c"].set_title("(c) one fast push")
     place.set(title="(d) disc pushed aside", xlabel="time (s)", ylabel="place (mm)")
-    place.set(xlim=(0, 5), ylim=(-0.2, 2.6))
+    place.set(xlim=(0, 5))
     panels["a"].legend(loc="lower left", handlelength=1)
     panels["b"].legend(loc="upper right")
-    place.legend(loc="upper left", ncols=2)
+    place.legend(loc="center right")
     return drawn

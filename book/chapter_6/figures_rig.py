@@ -11,9 +11,8 @@ from matplotlib.figure import Figure
 from book.chapter_6 import filters
 from book.chapter_6 import speed as gripper_speed
 from book.chapter_6.comparison import CRITERIA, ENTRIES, RIGS, judged, robustness_margin
-from book.chapter_6.logs import LOW_SPEED, names_of
+from book.chapter_6.logs import names_of
 from book.chapter_6.results import (
-    BAND_SHARE,
     bounds,
     desired,
     ends,
@@ -22,6 +21,8 @@ from book.chapter_6.results import (
     largest_weight,
     recovery,
 )
+from book.companion.band import LABEL, shade
+from book.companion.choices import choice
 from book.companion.exhibit import figure, table
 from book.companion.style import (
     BLUE,
@@ -35,7 +36,6 @@ from book.companion.style import (
     sheet,
 )
 from softgrip.arrays import Floats
-from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.step_metrics import final_value
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.plant import FingerDynamics
@@ -77,7 +77,7 @@ def model_deviation(models: Sequence[FingerDynamics], frequency: Floats) -> Floa
 
 
 def _bands(axes: Any, runs: GripperLogs, printed: tuple[float, float]) -> None:
-    excited = excited_band(runs.commands[0, 1:], runs.period, share=BAND_SHARE)
+    excited = excited_band(runs.commands[0, 1:], runs.period, share=choice("excited_share"))
     axes.axvspan(*excited, color=YELLOW, alpha=0.3, lw=0, label="excited")
     axes.axvspan(*printed, fill=False, ec=PRINTED, ls=":", label="printed as excited")
     axes.axvline(np.pi / runs.period, color=VERMILION, lw=1)
@@ -97,6 +97,8 @@ def figure_6_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     frequency = MODELLED
     identified_by_finger = each_identified(runs)
     for k, (side, colour, dash) in enumerate(SIDES):
+        if not logs:
+            shade(steps, f"open-{side}", colour, label="_band" if k else LABEL)
         _steps(steps, runs.time, runs.angles[:, k], colour, dash, side)
         weights.plot(*run_deviation(runs, k), ".", color=colour, ms=3, label=f"{side}, records")
         bound = model_deviation(identified_by_finger[k], frequency)
@@ -106,7 +108,7 @@ def figure_6_4(logs: tuple[Path | str, ...] = ()) -> Figure:
     steps.set(title="(a) steps in open loop", xlabel="time (s)", ylabel="angle (deg)")
     steps.legend(loc="lower right")
     _bound(weights)
-    weights.set(xlim=(0.5, 80), ylim=(0.03, 30))
+    weights.set(xlim=(0.5, 80), ylim=(0.01, 30))
     drawn.legend(*weights.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return drawn
 
@@ -120,24 +122,29 @@ def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     both = groups(logs, ("open", "low-speed"))
     spreads = {spread.speed: spread for spread in gripper_speed.kept_errors()}
     words = (
-        ("high speed", BLUE, "-", round(SPEED_LIMIT / REV, 9)),
-        ("low speed", ORANGE, "--", round(LOW_SPEED / REV, 9)),
+        ("high speed", BLUE, "-", gripper_speed.printed_speed("high")),
+        ("low speed", ORANGE, "--", gripper_speed.printed_speed("low")),
     )
     drawn, (steps, weights, errors) = sheet(7.4, 3, 1)
-    bins = np.arange(-6, 6.1, 0.75).tolist()
-    for runs, (label, colour, dash, speed) in zip(both, words, strict=True):
+    ends = [final_value(runs.time, runs.angles[:, 0], window=1.0) / DEG for runs in both]
+    rests = [
+        rest - rest.mean() if logs else spreads[speed].measured
+        for rest, (*_, speed) in zip(ends, words, strict=True)
+    ]
+    most = np.ceil(np.abs(np.concatenate(rests)).max())
+    bins = np.linspace(-most, most, 17).tolist()
+    for runs, found, (label, colour, dash, _) in zip(both, rests, words, strict=True):
         pushed = runs.time[np.flatnonzero(runs.commands[0])[-1]]
         _steps(steps, runs.time - pushed, runs.angles[:, 0], colour, dash, label)
         weights.plot(*run_deviation(runs, 0), ".", color=colour, ms=4, label=label)
-        rest = final_value(runs.time, runs.angles[:, 0], window=1.0) / DEG
-        found = rest - rest.mean() if logs else spreads[speed].measured
         look = {"color": colour, "ls": dash, "lw": 1.6, "histtype": "step"}
         errors.hist(found, bins, label=f"{label} ({found.std(ddof=1):.2f} deg)", **look)
     weights.axvspan(*PRINTED_BAND["6.5"], fill=False, ec=PRINTED, ls=":")
     steps.set(title="(a) steps of the left finger", ylabel="angle (deg)")
     steps.set_xlabel("time since the push ended (s)")
     _bound(weights)
-    errors.set(title="(c) errors at rest", xlabel="error (deg)", ylabel="runs", ylim=(0, 60))
+    errors.set(title="(c) errors at rest", xlabel="error (deg)", ylabel="runs")
+    errors.set_ylim(top=1.5 * errors.get_ylim()[1])  # leaves room for the legend
     errors.legend(loc="upper right")
     steps.legend(loc="lower right")
     return drawn

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from book.chapter_6.controllers import gripper_controller
+from book.companion.choices import choice
 from softgrip.arrays import Floats
 from softgrip.control.rig_controller import CommandSequence, RigController
 from softgrip.gripper.grasp import DiscBetweenFingers, ElasticDisc
@@ -13,12 +14,12 @@ from softgrip.gripper.internal_model import PERIOD
 from softgrip.reads import remembered
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
-from softgrip.simulator.gripper_calibration import push_commands
-from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
+from softgrip.simulator.fitted_rigs import printed_gripper
+from softgrip.simulator.gripper_steps import push_commands
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import REV
 
-STEP = 0.0025
+STEP = 0.002
 """Of the integration, s; half of it changes no force by more than 2 % (a test measures it)."""
 SAMPLE = 0.02
 """Of what is kept, s; the controller sees each fifth."""
@@ -35,7 +36,7 @@ disc, which lie beyond its surface."""
 
 
 def _push(speed: float) -> Floats:
-    return push_commands(2 * TRAVEL, printed_gripper().pump, speed)
+    return push_commands(2 * choice("gripper_travel"), printed_gripper().pump, speed)
 
 
 @dataclass(frozen=True)

@@ -8,36 +8,40 @@ from dataclasses import replace
 
 import numpy as np
 
-from book.chapter_6.controllers import gripper_controller, own_model, target_angles
+from book.chapter_6.controllers import (
+    gripper_controller,
+    open_loop_commands,
+    own_model,
+    target_angles,
+)
+from book.companion.choices import choice
 from book.companion.simulated_logs import Recipe
 from softgrip.arrays import Floats
 from softgrip.control.rig_controller import CommandSequence
 from softgrip.gripper.internal_model import PERIOD
-from softgrip.simulator.gripper_calibration import OPEN_LOOP_DURATION, push_commands
-from softgrip.simulator.gripper_calibration_table import FILE
-from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
-from softgrip.units import REV
+from softgrip.simulator.fitted_rigs import GRIPPER, printed_gripper
+from softgrip.simulator.gripper_steps import OPEN_LOOP_DURATION
+from softgrip.simulator.laws import settled_torque
 
 RUNS = 7
-LOW_SPEED = 0.1 * REV
-"""rad/s, of the slow steps (assumed; no speed is printed)."""
 REST = 5.0
 """Time that a finger is given after a push, s."""
 PUSH_FROM, PUSH_UNTIL = 5.0, 5.5
 """s. Section 6.4 pushes at 1.4 s, when its fingers are at rest; here they rest later."""
-PUSH_TORQUE = -1e-3
-"""N m on the left finger (assumed): a fifth of what the air bends it with."""
+PUSH_SHARE = 0.2
+"""Of what the air bends the left finger with, at its target (assumed)."""
 
 
 def push_left(time: float) -> Floats:
     """Return the torque of a hand on the left finger, N m, shape (2, 1)."""
     pushed = PUSH_FROM - PERIOD / 2 < time < PUSH_UNTIL - PERIOD / 2
-    return np.array([[PUSH_TORQUE if pushed else 0.0], [0.0]])
+    held = settled_torque(_target()[0], printed_gripper().fingers[0])
+    return np.array([[-PUSH_SHARE * held * pushed], [0.0]])
 
 
-def low_speed_commands(speed: float = LOW_SPEED) -> Floats:
-    """Return the commands that push as far as the open-loop step does, at a speed in rad/s."""
-    return push_commands(TRAVEL, printed_gripper().pump, speed)
+def low_speed_commands() -> Floats:
+    """Return the commands that push as far as the open-loop step does, at low speed, rad/s."""
+    return open_loop_commands(choice("low_speed"))
 
 
 def _target() -> Floats:
@@ -52,7 +56,7 @@ _OPEN = Recipe(
     notes={"fingers": "left, right"},
     rig=printed_gripper,
     period=PERIOD,
-    calibration=FILE,
+    calibration=GRIPPER,
 )
 _FAST = replace(
     _OPEN,
@@ -70,8 +74,8 @@ _RECIPES = {
     "low-speed": replace(
         _OPEN,
         control=lambda: CommandSequence(low_speed_commands()),
-        duration=PERIOD * low_speed_commands().size + REST,
-        words="Figure 6.5 (a), step in open loop at 0.1 rev/s",
+        duration=lambda: PERIOD * low_speed_commands().size + REST,
+        words="Figure 6.5 (a), step in open loop at low speed",
     ),
     "fast": _FAST,
     "slow": _SLOW,

@@ -1,7 +1,7 @@
 """Recomputation of the numbers printed in Chapter 6, by linear model and on the rig."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -229,13 +229,13 @@ def excited(kind: str, end: str) -> float:
 
 
 @simulated
-def spread_at_rest(speed: float) -> float:
+def spread_at_rest(speed: Literal["high", "low"]) -> float:
     """Return the measured standard deviation at rest of the left finger, in deg.
 
-    ``speed`` is one of `speed.SPEEDS`, rev/s.
+    ``speed`` is "high" or "low", as of `speed.printed_speed`.
     """
     found = {spread.speed: spread for spread in gripper_speed.kept_errors()}
-    return float(found[speed].measured.std(ddof=1))
+    return float(found[gripper_speed.printed_speed(speed)].measured.std(ddof=1))
 
 
 @simulated
@@ -245,7 +245,7 @@ def angle_at_rest(side: str, kind: str = "open") -> float:
 
 
 @simulated
-def settled_on_rig(controller: str, criterion: str = "10 %", rig: str = "as it is") -> float:
+def settled_on_rig(controller: str, criterion: str = "fitted", rig: str = "as it is") -> float:
     """Return the settling time of both fingers on the simulated gripper, median of 50 runs, s.
 
     ``rig`` is a key of `comparison.RIGS`.

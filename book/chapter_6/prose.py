@@ -9,6 +9,7 @@ from book.chapter_6.controllers import WANTED
 from book.chapter_6.figures_rig import ENDS
 from book.chapter_6.filters import CROSSOVER, DAMPING_RATIO, NATURAL_FREQUENCY, author_plant
 from book.chapter_6.grasps import STIFFNESS
+from book.companion.choices import choice
 from book.companion.claims import claim_of, printed
 from book.companion.verdict import recomputed
 from softgrip.control.loop import SPEED_LIMIT
@@ -19,6 +20,7 @@ from softgrip.gripper.optimal_feedforward import FeedforwardProgram
 from softgrip.gripper.plant import PRINTED, FingerDynamics
 from softgrip.gripper.printed_loop import FILTERS, FINE, equal_targets
 from softgrip.gripper.uncertainty import DAMPING_BOUND, STIFFNESS_BOUND
+from softgrip.simulator.fitted_rigs import printed_gripper
 from softgrip.units import DEG, MM, REV
 
 
@@ -32,7 +34,7 @@ def _limit(which: int) -> float:
 
 def _weights() -> dict[float, float]:
     """Return the largest weight by the motor speeds, rev/s, at which every run has a model."""
-    found = {one: results.largest_weight(one * REV) for one in speed.SPEEDS}
+    found = {one: results.largest_weight(one * REV) for one in speed.speeds()}
     return {one: weight for one, weight in found.items() if weight is not None}
 
 
@@ -48,13 +50,18 @@ WORDS = {
     "open_left": lambda: f"{numbers.angle_at_rest('left'):.0f}",
     "open_right": lambda: f"{numbers.angle_at_rest('right'):.0f}",
     "model_deviation": lambda: f"{100 * shown.largest_model_deviation():.0f}",
-    "above_one": lambda: f"{max(shown.above_one_from('open', k) for k in (0, 1)):.0f}",
-    "slow_above_one": lambda: f"{shown.above_one_from('low-speed'):.0f}",
-    "slow_excited": lambda: f"{results.band('low-speed')[1]:.0f}",
+    "above_one": lambda: f"{max(shown.passes_one('open', k) for k in (0, 1)):.0f}",
+    "slow_above_one": lambda: f"{shown.passes_one('low-speed'):.0f}",
+    "sensor_noise": lambda: f"{printed_gripper().sensors.angle_noise / DEG:.1f}",
+    "excited_share": lambda: f"{100 * choice('excited_share'):.2g}",
+    "high_speed": lambda: f"{speed.printed_speed('high'):.2g}",
+    "slow_speed": lambda: f"{speed.printed_speed('low'):.2g}",
     "speed_runs": lambda: f"{speed.RUNS}",
-    "spread_at_rest": lambda: f"{numbers.spread_at_rest(5.0):.1f}",
+    "spread_at_rest": lambda: f"{numbers.spread_at_rest('high'):.1f}",
     "low_speed": lambda: f"{min(_weights()):g}",
-    "weight_grows": lambda: f"{100 * (_weights()[min(_weights())] / _weights()[5.0] - 1):.0f}",
+    "weight_grows": lambda: (
+        f"{100 * (_weights()[min(_weights())] / _weights()[max(_weights())] - 1):.0f}"
+    ),
     # Figure 6.6.
     "noise": lambda: f"{model.NOISE / DEG:g}",
     "push": lambda: f"{model.PUSH:g}",
@@ -76,11 +83,13 @@ WORDS = {
     "medium": lambda: f"{STIFFNESS['medium']:g}",
     "stiff": lambda: f"{STIFFNESS['stiff']:g}",
     "touch": lambda: f"{shown.first_touch('scheme, 2/s'):.1f}",
-    "aside": lambda: "{:.1f} to {:.1f}".format(*np.sort(shown.pushed_aside()[0])[[0, -1]]),
-    "at_rest": lambda: f"{shown.pushed_aside()[1].mean():.1f}",
+    "aside": lambda: f"{shown.pushed_aside().mean():.0f}",
     "judged_runs": lambda: f"{comparison.RUNS}",
     "judged_band": lambda: f"{comparison.CRITERIA['2 deg'][0] / DEG:g}",
     "ends": lambda: "{} to {}".format(*ENDS),
+    "unlimited_overshoot": lambda: (
+        f"{100 * np.median(comparison.judged('4.8/s', 'no motor limit').overshoot):.0f}"
+    ),
     "unlimited_settled": lambda: f"{numbers.settled_on_rig('2/s', rig='no motor limit'):.1f}",
     # Figures 6.A to 6.C, Tables 6.B and 6.D.
     "asked": lambda: f"{180 * printed('6.4-target-of-the-simulation'):.0f}",
@@ -148,7 +157,7 @@ WORDS = {
     "found_early": lambda: f"{shown.settles_about(1)[1]:.2f}",
     "found_rig_fast": lambda: f"{numbers.settled_on_rig('4.8/s'):.1f}",
     "found_rig_slow": lambda: f"{numbers.settled_on_rig('2/s'):.1f}",
-    "found_band": lambda: f"{100 * comparison.CRITERIA['10 %'][0]:g}",
+    "found_band": lambda: f"{100 * comparison.criteria()['fitted'][0]:.2g}",
     "found_frequency_1": lambda: f"{PRINTED.fingers[0].natural_frequency:.2f}",
     "found_frequency_2": lambda: f"{PRINTED.fingers[1].natural_frequency:.2f}",
 }

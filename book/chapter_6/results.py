@@ -4,6 +4,7 @@ import numpy as np
 
 from book.chapter_6.controllers import gripper_controller, own_model, target_angles
 from book.chapter_6.logs import PUSH_FROM, PUSH_UNTIL, RUNS, names_of, push_left
+from book.companion.choices import choice
 from softgrip.arrays import Floats
 from softgrip.control.step_metrics import final_value
 from softgrip.gripper.internal_model import PERIOD
@@ -17,17 +18,14 @@ from softgrip.gripper.uncertainty import (
 )
 from softgrip.logs.fingers import GripperLogs, each_identified, read_runs
 from softgrip.provenance import data_file
-from softgrip.pump.finger import Finger, swept_volume
 from softgrip.reads import remembered
+from softgrip.simulator import statics
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
-from softgrip.simulator.gripper_calibration import step_identifies
-from softgrip.simulator.gripper_parameters import TRAVEL, printed_gripper
+from softgrip.simulator.fitted_rigs import printed_gripper
+from softgrip.simulator.gripper_steps import step_identifies
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG
-
-BAND_SHARE = 0.1
-"""Of the largest amplitude: what counts as excited."""
 
 
 def logs_of(kind: str) -> GripperLogs:
@@ -50,7 +48,13 @@ def identified(kind: str) -> list[list[FingerDynamics]]:
 @remembered
 def identified_without_noise() -> list[list[FingerDynamics]]:
     """Return what the runs of the open-loop logs identify without their sensors."""
-    return step_identifies(printed_gripper(), TRAVEL, runs=RUNS, seed=SEED)[1]
+    return step_identifies(
+        printed_gripper(),
+        choice("gripper_travel"),
+        runs=RUNS,
+        seed=SEED,
+        speed=choice("gripper_speed"),
+    )[1]
 
 
 WEIGHED = np.geomspace(0.5, 80, 60)
@@ -69,7 +73,9 @@ def largest_weight(speed: float) -> float | None:
     Returns:
         float or None: A share; None where not every run identifies a model.
     """
-    _, found = step_identifies(printed_gripper(), TRAVEL, runs=RUNS, seed=SEED, speed=speed)
+    _, found = step_identifies(
+        printed_gripper(), choice("gripper_travel"), runs=RUNS, seed=SEED, speed=speed
+    )
     if len(found[0]) < RUNS:
         return None
     responses = np.array([finger_response(model, WEIGHED) for model in found[0]])
@@ -84,7 +90,7 @@ def bounds(found: list[list[FingerDynamics]]) -> Floats:
 
 def band(kind: str) -> tuple[float, float]:
     """Return the excited band of the command of some logs, rad/s."""
-    return excited_band(logs_of(kind).commands[0, 1:], PERIOD, share=BAND_SHARE)
+    return excited_band(logs_of(kind).commands[0, 1:], PERIOD, share=choice("excited_share"))
 
 
 @remembered
@@ -122,20 +128,9 @@ def recovery(within: float = 1 * DEG) -> Floats:
 def volume_for(count: int, angle: float) -> float:
     """Return what the plunger must sweep to bend so many fingers by an angle [rad], m^3.
 
-    The fingers are those of the simulated gripper, in turn; all are given the pressure that the
-    stiffest of them needs. By the exact gas law, `pump.finger.swept_volume`.
+    The fingers are those of the simulated gripper, in turn.
     """
-    gripper = printed_gripper(spread=False)
-    fingers = [gripper.fingers[k % 2] for k in range(count)]
-    pressure = max(f.stiffness * angle**f.fractional_power / f.torque_per_pressure for f in fingers)
-    at_rest = sum(f.rest_volume for f in fingers)
-    grown = sum(
-        f.torque_per_pressure * (f.torque_per_pressure * pressure / f.stiffness)
-        ** (1 / f.fractional_power) + f.ballooning * pressure
-        for f in fingers
-    )  # fmt: skip
-    asked = Finger(pressure, at_rest, at_rest + grown, gripper.gas.dead_volume, rise_time=1.0)
-    return swept_volume(asked, gripper.pump.syringe_volume, gripper.gas.atmosphere)
+    return float(statics.volume_for(printed_gripper(spread=False), count, angle))
 
 
 def desired() -> Floats:

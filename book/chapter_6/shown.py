@@ -20,10 +20,10 @@ def largest_model_deviation() -> float:
     return float(max(model_deviation(m, MODELLED).max() for m in results.identified("open")))
 
 
-def above_one_from(kind: str, finger: int = 0) -> float:
-    """Return the frequency from which on a record's deviations all lie above one, rad/s."""
+def passes_one(kind: str, finger: int = 0) -> float:
+    """Return the lowest frequency at which a record's deviations lie above one, rad/s."""
     frequency, found = run_deviation(results.logs_of(kind), finger)
-    return float(frequency[np.flatnonzero(found <= 1)[-1] + 1])
+    return float(frequency[np.argmax(found > 1)])
 
 
 def passes_target() -> float:
@@ -159,7 +159,7 @@ def first_touch(drive: str) -> float:
     return float(min(one.time[np.argmax(one.forces[0] > 0)] for one in held))
 
 
-def pushed_aside() -> tuple[Floats, Floats]:
-    """Return how far each drive of Figure 6.8 (d) pushes the disc at most and in the end, mm."""
-    held = [grasps.grasp(grasps.STIFFNESS["medium"], drive).place / MM for drive in grasps.DRIVES]
-    return np.array([place.max() for place in held]), np.array([place[-1] for place in held])
+def pushed_aside(after: float = grasps.DURATION) -> Floats:
+    """Return how far each drive of Figure 6.8 (d) has pushed the disc after a time [s], mm."""
+    held = [grasps.grasp(grasps.STIFFNESS["medium"], drive) for drive in grasps.DRIVES]
+    return np.array([np.interp(after, one.time, one.place) / MM for one in held])

@@ -7,22 +7,25 @@ run, less the mean over the runs. The mean of its last second, as it is and as i
 
 from collections.abc import Iterator
 from dataclasses import astuple, dataclass
+from typing import Literal
 
 import numpy as np
 
-from book.chapter_6.logs import REST, low_speed_commands
+from book.chapter_6.controllers import open_loop_commands
+from book.chapter_6.logs import REST
+from book.companion.choices import choice
 from softgrip.arrays import Floats
 from softgrip.control.rig_controller import CommandSequence
 from softgrip.gripper.internal_model import PERIOD
 from softgrip.kept import Kept
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
-from softgrip.simulator.gripper_parameters import printed_gripper
+from softgrip.simulator.fitted_rigs import printed_gripper
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG, REV
 
 SPEEDS = (5.0, 1.0, 0.5, 0.2, 0.1, 0.05)
-"""rev/s."""
+"""rev/s, besides the fitted ones of the text."""
 RUNS = 200
 END = 1.0
 """Over which the angle is averaged, s."""
@@ -43,9 +46,20 @@ class SpeedSpread:
     measured: Floats
 
 
+def printed_speed(name: Literal["high", "low"]) -> float:
+    """Return one of the two speeds of the text, rev/s; they are fitted, as none is printed."""
+    named = {"high": "gripper_speed", "low": "low_speed"}
+    return round(choice(named[name]) / REV, 6)
+
+
+def speeds() -> tuple[float, ...]:
+    """Return all speeds, rev/s, the highest first."""
+    return tuple(sorted({*SPEEDS, printed_speed("high"), printed_speed("low")}, reverse=True))
+
+
 def errors_at(speed: float, *, runs: int = RUNS, seed: int = SEED) -> SpeedSpread:
     """Simulate steps of the left finger at a speed, rev/s."""
-    commands = low_speed_commands(speed * REV)
+    commands = open_loop_commands(speed * REV)
     rig = Simulation(printed_gripper(), runs=runs, seed=seed, period=PERIOD)
     made = drive(rig, CommandSequence(commands), duration=PERIOD * commands.size + REST)
     last = round(END / PERIOD)
@@ -67,7 +81,7 @@ class RunError:
 
 def run_errors() -> Iterator[RunError]:
     """Simulate the steps at all speeds."""
-    for found in map(errors_at, SPEEDS):
+    for found in map(errors_at, speeds()):
         for run, errors in enumerate(zip(found.true, found.measured, strict=True)):
             yield RunError(found.speed, run, *errors)
 
@@ -86,7 +100,7 @@ KEPT = Kept(
 def kept_errors() -> tuple[SpeedSpread, ...]:
     """Read the kept errors, the highest speed first."""
     table = np.array([astuple(row) for row in KEPT.read()])
-    return tuple(SpeedSpread(speed, *table[table[:, 0] == speed][:, 2:].T) for speed in SPEEDS)
+    return tuple(SpeedSpread(speed, *table[table[:, 0] == speed][:, 2:].T) for speed in speeds())
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ from book.companion.claims import Basis, Claim, read_claims, references
 from book.companion.errata import Erratum, errata
 from book.companion.markdown import Markdown, markdown_table
 from book.companion.slips import ASSUMPTION, PRINT, RESULT, Change
+from book.companion.twin_reach import told
 from book.companion.verdict import Entry, Outcome, ledger, yields
 
 MARKS = {
@@ -101,19 +102,25 @@ def _row(entry: Entry) -> str:
         f'<tr id="claim-{claim.id}"><td>{html.escape(claim.what)}{_remarks(entry)}</td>'
         f"<td class='number'>{_print(claim)}</td>"
         f"<td class='number'>{value}</td>"
-        f"<td>{chip(entry.outcome, entry.outcome)}</td><td>{basis}</td></tr>"
+        f"<td>{chip(entry.outcome, entry.outcome)}</td><td>{basis}</td>"
+        f"<td>{told(claim.id)}</td></tr>"
     )
+
+
+TWIN = '<a href="one-rig.html">within the twin\'s reach</a>'
+"""Head of the column that says what one simulated rig makes of a print."""
 
 
 def verdict_table(entries: list[Entry]) -> str:
     """Return entries as an HTML table, place by place: printed, recomputed, verdict."""
-    names = ("what", "printed", "recomputed", "outcome", "basis")
+    names = ("what", "printed", "recomputed", "outcome", "basis", TWIN)
     head = "".join(f'<th scope="col">{name}</th>' for name in names)
+    wide = len(names)
     places: dict[str, list[Entry]] = {}
     for entry in entries:
         places.setdefault(entry.claim.where, []).append(entry)
     bodies = "".join(
-        f'<tbody><tr><th colspan="5" scope="rowgroup">{html.escape(where)}</th></tr>'
+        f'<tbody><tr><th colspan="{wide}" scope="rowgroup">{html.escape(where)}</th></tr>'
         f"{''.join(map(_row, found))}</tbody>"
         for where, found in places.items()
     )

@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
+from book.companion.choices import choice
 from book.companion.exhibit import BOOK
 from softgrip.arrays import Floats
 from softgrip.control.loop import Controller
@@ -26,10 +27,9 @@ from softgrip.logs.schema import LogHeader
 from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance, data_folder
 from softgrip.rig.record import log_row, more_columns, reference_rows
-from softgrip.simulator import calibration_table
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
+from softgrip.simulator.fitted_rigs import DESIGN_1, design_1
 from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.simulation import Simulation, Truth, sample
 from softgrip.units import DEG
@@ -47,9 +47,9 @@ class Recipe:
 
     Attributes:
         control: Makes the controller, whose log begins at rest; or the motor speeds in open loop,
-            rad/s, shape (N,), whose log begins at the end of the first period.
+            rad/s, shape (N,), whose log begins at the end of the first period; or these speeds.
         words: What the log shows.
-        duration: s, under a controller.
+        duration: s, under a controller, or what gives it.
         reference: As of `record`, or what gives it.
         push: As of `drive`.
         events: Words by time, s.
@@ -62,9 +62,9 @@ class Recipe:
         calibration: Of the rig, below ``data/``.
     """
 
-    control: Callable[[], RigController] | Floats
+    control: Callable[[], RigController | Floats] | Floats
     words: str
-    duration: float = STEP_DURATION
+    duration: float | Callable[[], float] = STEP_DURATION
     reference: Callable[[], Floats] | Floats | None = None
     push: Callable[[float], ArrayLike] | None = None
     events: Mapping[float, str] = field(default_factory=dict)
@@ -74,7 +74,7 @@ class Recipe:
     plunger: float = 0.0
     until: float = np.inf
     period: float = PERIOD
-    calibration: str = calibration_table.FILE
+    calibration: str = DESIGN_1
 
     def write(self, path: Path, source: str) -> None:
         """Write the log to a path, which must be free, with the command that makes it."""
@@ -82,11 +82,17 @@ class Recipe:
         rig = Simulation(
             parameters, seed=SEED, first=self.run, period=self.period, plunger=self.plunger
         )
-        if callable(self.control):
-            made = drive(rig, self.control(), duration=self.duration, push=self.push)
+        control = self.control() if callable(self.control) else self.control
+        if not isinstance(control, np.ndarray):
+            made = drive(
+                rig,
+                control,
+                duration=self.duration() if callable(self.duration) else self.duration,
+                push=self.push,
+            )
             time, command, seen, events = made.time, made.command[:, 0], made.measured, self.events
         else:
-            command = self.control
+            command = control
             seen, truth = rig.open_loop(command)
             time, events = _end(truth, self.until, parameters.pump.stroke)
         pump = parameters.pump
@@ -131,7 +137,7 @@ def tracked(
     gains: str,
     words: str,
     *,
-    reference: Floats | None = None,
+    reference: Callable[[], Floats],
 ) -> Recipe:
     """Return the recipe of a controller of one finger.
 
@@ -140,16 +146,20 @@ def tracked(
         name: What it is called.
         gains: Where its gains stand, below ``data/``.
         words: What the log shows.
-        reference: rad, shape (N,); None for a step.
+        reference: Gives what is followed, rad, shape (N,).
     """
-    followed = np.full(round(STEP_DURATION / PERIOD) + 1, STEP) if reference is None else reference
     return Recipe(
-        lambda: Tracking(controller(), followed),
+        lambda: Tracking(controller(), reference()),
         words,
-        duration=(followed.size - 1) * PERIOD,
-        reference=followed[:, None],
+        duration=lambda: (reference().size - 1) * PERIOD,
+        reference=lambda: reference()[:, None],
         notes={"controller": f"{name}; data/{gains}"},
     )
+
+
+def step_of(name: str) -> Floats:
+    """Return a step whose size is a choice, as a reference, rad, shape (N,)."""
+    return np.full(round(STEP_DURATION / PERIOD) + 1, choice(name))
 
 
 def writers() -> dict[str, Callable[[Path, str], None]]:

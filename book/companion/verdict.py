@@ -22,7 +22,7 @@ from itertools import pairwise
 from math import isfinite
 from typing import Any, TypeVar
 
-from book.companion import relations
+from book.companion import relations, twin_reach
 from book.companion.claims import (
     Assumption,
     Basis,
@@ -165,6 +165,7 @@ class Entry:
             "needs": claim.needs,
             "note": claim.note,
             "function": self.function,
+            "twin": twin_reach.told(claim.id),
         }
 
 

@@ -30,7 +30,10 @@ def experiments() -> dict[str, LiveExperiment]:
     found = (
         LiveExperiment("step", step, full, "a step to 60 deg; PID designed on Eq. (4.15)"),
         LiveExperiment(
-            "staircase", staircase(period=PERIOD), full, "Figure 4.7: staircase; PID of Eq. (4.15)"
+            "staircase",
+            staircase(period=PERIOD),
+            full,
+            "a staircase as in Figure 4.7; PID of Eq. (4.15)",
         ),
     )
     return {one.name: one for one in found}

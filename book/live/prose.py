@@ -1,22 +1,27 @@
 """Computed numbers in the prose of the pages that drive a rig: live, commissioning, protocol."""
 
+from scipy.special import ndtr
+
 from book.live.experiments import STEP
+from softgrip.arrays import Number
 from softgrip.board.driver import HUNG_AFTER
 from softgrip.board.emulated.board import CLOCK
 from softgrip.board.firmware.config import AT_START, PINS, SCALE, STEPS
 from softgrip.board.session import HEARTBEAT_EVERY
 from softgrip.control.pid import PERIOD
-from softgrip.logs.reader import kept_log, read_log
 from softgrip.rig.acceptance import WIDTH
 from softgrip.rig.check import LISTEN
+from softgrip.simulator.fit_problem import DEVIATIONS
+from softgrip.simulator.fitted_rigs import design_1
 from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.parameters import SensorParameters
+from softgrip.simulator.statics import settled_pressure
 from softgrip.units import DEG, MM
 
 SENSORS, SUPPLY = SensorParameters(), PadParameters().supply
 
 
-def _volts(count: float) -> float:
+def _volts(count: Number) -> Number:
     return count / SENSORS.largest_count * SUPPLY
 
 
@@ -34,7 +39,8 @@ WORDS = {
     "listen": lambda: f"{LISTEN:g}",
     "band": lambda: f"{100 * WIDTH:g}",
     "step": lambda: f"{STEP / DEG:g}",
-    "needs": lambda: f"{read_log(kept_log('pid-full'))['pressure'].max() / 1e3:.0f}",
+    "needs": lambda: f"{settled_pressure(design_1().finger, STEP) / 1e3:.0f}",
+    "interval": lambda: f"{100 * (2 * ndtr(DEVIATIONS) - 1):.0f}",
     "period": lambda: f"{1e3 * PERIOD:g}",
     # Silence: ms, s.
     "silence": lambda: f"{AT_START['silence']}",

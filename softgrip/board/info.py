@@ -46,7 +46,7 @@ class Scale:
 
     def travel_in(self, position: int) -> float:
         """Return the travel of the plunger, m, at a position in steps."""
-        return position / self.steps * self.pump.lead
+        return float(position / self.steps * self.pump.lead)
 
     def limits_in(self, told: Values, prefix: str = "") -> Limits:
         """Return the limits in an answer to HELLO; prefixed ``hard_`` are the bounds on them."""

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.signal import savgol_coeffs
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats, Number, check_positive
 from softgrip.control.pid import PERIOD
 from softgrip.errors import InvalidInputError
 
@@ -29,6 +29,22 @@ class Differentiator(Protocol):
         ...
 
 
+def predict(
+    angle: Number, rate: Number, acceleration: Number, measured: Number, jerk: Number, h: float
+) -> tuple[Number, Number, Number]:
+    """Return the states of `RobustDifferentiator` a period h later; it calls NumPy alone."""
+    miss = angle - measured
+    size, sign = np.abs(miss), np.sign(miss)
+    pull_0 = -LEVANT[0] * jerk ** (1 / 3) * size ** (2 / 3) * sign
+    pull_1 = -LEVANT[1] * jerk ** (2 / 3) * size ** (1 / 3) * sign
+    pull_2 = -LEVANT[2] * jerk * sign
+    return (
+        angle + h * (pull_0 + rate) + h * h / 2 * acceleration,
+        rate + h * (pull_1 + acceleration),
+        acceleration + h * pull_2,
+    )
+
+
 @final
 class RobustDifferentiator:
     """Levant's robust exact differentiator of second order, in discrete time.
@@ -44,7 +60,7 @@ class RobustDifferentiator:
     discretization of homogeneous differentiators", Automatica 50 (2014) 2007-2014.
 
     Args:
-        jerk: Bound of the third derivative, rad/s^3, > 0.
+        jerk: Bound of the third derivative, rad/s^3, > 0; a number or shape (runs,).
         period: s, > 0.
 
     >>> line = RobustDifferentiator(5.0)
@@ -54,7 +70,7 @@ class RobustDifferentiator:
     [4.99, 0.5]
     """
 
-    def __init__(self, jerk: float, *, period: float = PERIOD) -> None:
+    def __init__(self, jerk: Number, *, period: float = PERIOD) -> None:
         check_positive(jerk=jerk, period=period)
         self.jerk, self.period = jerk, period
         self._state: Floats | None = None
@@ -65,20 +81,8 @@ class RobustDifferentiator:
         if self._state is None:
             self._state = np.stack([y, np.zeros_like(y), np.zeros_like(y)])
         now = self._state
-        miss = now[0] - y
-        size, sign, h, L = np.abs(miss), np.sign(miss), self.period, self.jerk
-        pull = [
-            -gain * L ** ((k + 1) / 3) * size ** ((2 - k) / 3) * sign
-            for k, gain in enumerate(LEVANT)
-        ]
         # The state is the prediction for the next sample; what is told is the one for this.
-        self._state = np.stack(
-            [
-                now[0] + h * (pull[0] + now[1]) + h * h / 2 * now[2],
-                now[1] + h * (pull[1] + now[2]),
-                now[2] + h * pull[2],
-            ]
-        )
+        self._state = np.stack(predict(now[0], now[1], now[2], y, self.jerk, self.period))
         return now
 
 
@@ -92,6 +96,9 @@ class PolynomialDifferentiator:
         window: Number of samples, above the order.
         order: Of the polynomial, >= 2.
         period: s, > 0.
+
+    Attributes:
+        rows: What the samples weigh, oldest first, in angle, rate and acceleration, (3, window).
 
     >>> fit = PolynomialDifferentiator(5)
     >>> for k in range(5):
@@ -108,12 +115,13 @@ class PolynomialDifferentiator:
             savgol_coeffs(window, order, deriv=k, delta=period, pos=window - 1, use="dot")
             for k in range(3)
         ]
-        self._rows: Floats = np.array(rows)
+        self.rows: Floats = np.array(rows)
+        self.period = period
         self._last: list[Floats] = []
 
     def update(self, measurement: ArrayLike) -> Floats:
         """Take the next sample and return angle, rate and acceleration at it."""
         y = np.asarray(measurement, dtype=np.float64)
-        window = self._rows.shape[1]
+        window = self.rows.shape[1]
         self._last = [*self._last[1:], y] if self._last else [y] * window
-        return np.asarray(np.tensordot(self._rows, np.stack(self._last), axes=1))
+        return np.asarray(np.tensordot(self.rows, np.stack(self._last), axes=1))

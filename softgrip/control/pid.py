@@ -7,7 +7,7 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats, Number, check_positive
 from softgrip.errors import InvalidInputError
 
 PERIOD = 0.025
@@ -26,16 +26,16 @@ class Gains:
             map of gains arrays of one shape (runs,), which `PID` takes and `pid_state_space` does
             not.
         derivative_filter: Time constant of the derivative's low pass, s, > 0, so that the
-            controller is proper.
+            controller is proper; a float, or an array as the gains.
 
     Raises:
         InvalidInputError: If a gain is not finite or the filter is not above zero.
     """
 
-    kp: float | Floats
-    ki: float | Floats = 0.0
-    kd: float | Floats = 0.0
-    derivative_filter: float = 0.025
+    kp: Number
+    ki: Number = 0.0
+    kd: Number = 0.0
+    derivative_filter: Number = 0.025
 
     def __post_init__(self) -> None:
         check_positive(derivative_filter=self.derivative_filter)

@@ -15,7 +15,7 @@ what was done with the one to get the other. Two readings are built:
     C_i, so the pump's model with it; what is left out is only that the motor needs its time.
 
 Which of the two it was, and the set values of the first, decide how well the design does. On the
-simulated rig the second never comes to rest: it answers the noise of the flex sensor at full speed.
+simulated rig the second settles late or never: it answers the flex sensor's noise at full speed.
 """
 
 from typing import final

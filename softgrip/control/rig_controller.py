@@ -11,6 +11,7 @@ from typing import Protocol, final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import read_only
 from softgrip.control.loop import Controller
 
 
@@ -34,7 +35,8 @@ class CommandSequence:
     """
 
     def __init__(self, commands: ArrayLike) -> None:
-        self._left = np.asarray(commands, dtype=np.float64).tolist()
+        self.commands = read_only(commands)
+        self._left = self.commands.tolist()
 
     def update(self, measured: ArrayLike) -> float:  # noqa: ARG002
         """Return the next command."""
@@ -57,12 +59,12 @@ class Tracking:
 
     def __init__(self, controller: Controller, reference: ArrayLike) -> None:
         self.controller = controller
-        self._samples = np.ravel(np.asarray(reference, dtype=np.float64))
+        self.reference = read_only(np.ravel(reference))
         self._sample = 0
 
     def update(self, measured: ArrayLike) -> ArrayLike:
         """Return the command, rad/s, shape (runs,); angles in rad, shape (fingers, runs)."""
         mean = np.asarray(measured, dtype=np.float64).mean(axis=0)
-        now = self._samples[min(self._sample, self._samples.size - 1)]
+        now = self.reference[min(self._sample, self.reference.size - 1)]
         self._sample += 1
         return self.controller.update(np.full(mean.shape, now), mean)

@@ -6,7 +6,7 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats, Number, check_positive
 from softgrip.control.differentiator import Differentiator
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import canonical_form
@@ -31,7 +31,7 @@ class StateFeedback:
 
     Args:
         gain: K, shape (3,), or (3, runs) for a map of gains.
-        input_gain: The gain in C, rad/s^3, > 0: see `lqr.input_gain`.
+        input_gain: The gain in C, rad/s^3, > 0: see `lqr.input_gain`; a number or shape (runs,).
         differentiator: Gives the derivatives; its period is the loop's.
         set_speed: omega_m, rad/s, > 0, as in `input_gain`.
 
@@ -44,7 +44,7 @@ class StateFeedback:
     def __init__(
         self,
         gain: ArrayLike,
-        input_gain: float,
+        input_gain: Number,
         differentiator: Differentiator,
         *,
         set_speed: float = SPEED_LIMIT,
@@ -82,6 +82,11 @@ class ObserverFeedback:
             little the model is trusted. The filter depends on its ratio to the noise alone.
         limit, set_speed: Largest motor speed, and that which a share of 1 means, rad/s, > 0.
         period: s, > 0.
+
+    Attributes:
+        correct, step, drive: Of the filter: ``found = predicted + correct (y - C predicted)`` and
+            ``predicted = step found + drive u``, shapes (3, 1), (3, 3) and (3, 1).
+        limit: As a share of the set speed.
     """
 
     def __init__(
@@ -103,9 +108,9 @@ class ObserverFeedback:
             held.A, held.B, held.C, [[disturbance**2]], [[noise**2]], method="scipy"
         )
         # Some libraries return the gain of the next prediction; this is that of the estimate now.
-        self._correct: Floats = spread @ held.C.T / (held.C @ spread @ held.C.T + noise**2)
-        self._step: Floats = held.A
-        self._drive: Floats = held.B
+        self.correct: Floats = spread @ held.C.T / (held.C @ spread @ held.C.T + noise**2)
+        self.step: Floats = held.A
+        self.drive: Floats = held.B
         self._predicted: Floats = np.zeros((3, 1))
         self.gain, self.input_gain, self.period = _three(gain), input_gain, period
         self.limit, self.set_speed = limit / set_speed, set_speed
@@ -116,13 +121,13 @@ class ObserverFeedback:
         For one gain and a reference of 0; one state a prediction, sampled.
         """
         K = self.gain.reshape(1, 3)
-        seen = np.eye(3) - self._correct @ [[self.input_gain, 0.0, 0.0]]
-        closed = self._step - self._drive @ K
+        seen = np.eye(3) - self.correct @ [[self.input_gain, 0.0, 0.0]]
+        closed = self.step - self.drive @ K
         return control.ss(
             closed @ seen,
-            closed @ self._correct,
+            closed @ self.correct,
             -self.set_speed * K @ seen,
-            -self.set_speed * K @ self._correct,
+            -self.set_speed * K @ self.correct,
             self.period,
         )
 
@@ -134,11 +139,11 @@ class ObserverFeedback:
         """
         y, r = np.asarray(measurement, np.float64), np.asarray(reference, np.float64)
         miss = y - self.input_gain * self._predicted[0]
-        found = self._predicted + self._correct * miss
+        found = self._predicted + self.correct * miss
         K = self.gain.reshape(3, -1)
         free = K[0] * r / self.input_gain - np.sum(K * found, axis=0)
         share = np.clip(free, -self.limit, self.limit)
-        self._predicted = self._step @ found + self._drive * share
+        self._predicted = self.step @ found + self.drive * share
         speed = np.round(self.set_speed * share, SPEED_DIGITS)
         single = y.ndim == r.ndim == 0 and self.gain.ndim == 1
         return np.asarray(speed[0] if single else speed)

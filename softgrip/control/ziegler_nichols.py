@@ -7,7 +7,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats, Number, check_positive
 from softgrip.checks import record
 from softgrip.control.pid import Gains
 from softgrip.errors import InvalidInputError
@@ -36,9 +36,9 @@ class ReactionCurve:
         gain: Rise of the response per unit of the step; infinite for an integrating process.
     """
 
-    delay: float
-    slope: float
-    gain: float = np.inf
+    delay: Number
+    slope: Number
+    gain: Number = np.inf
 
 
 def reaction_curve(

@@ -98,7 +98,14 @@ class Gripper:
 
 
 PRINTED = Gripper((FingerDynamics(2.66, 3.61, 7.831), FingerDynamics(2.45, 3.06, 7.831)))
-"""Eq. (6.26) and (6.27), SPA 1 (left) and SPA 2 (right)."""
+"""Eq. (6.26) and (6.27), SPA 1 and SPA 2."""
+LEFT, RIGHT = PRINTED.fingers[1], PRINTED.fingers[0]
+"""By their angles. The text contradicts itself on which finger is which: Eq. (6.26) gives SPA 1 the
+larger stiffness, so that it bends less (0.303 pi against 0.357 pi of one command), and Eq. (6.27)
+has 0.227 pi, 40.86 deg, for it. But Section 6.4 calls SPA 1 the left finger, which bends more (50
+deg against 39.5 deg in open loop, 48.24 deg against 40.86 deg desired). With the softer row for the
+left finger the angles, the rows and "responds faster" (a softer finger of the same mass is ahead at
+all times) agree, and the equivalent masses differ by a few percent only, as they should."""
 
 
 def finger_state_space(finger: FingerDynamics) -> control.StateSpace:

@@ -40,6 +40,9 @@ a line (else 0). The command is then the contact force."""
 REST, PRESS, WEIGHT, CONTACT = "rest", "press: element ", "weight: ", "contact"
 """Words of events, or their beginnings."""
 LARGEST_COUNT = 1023
+SATURATED = 0.1
+"""Share of the contacts in which an element may be at the end of the
+converter: in more of them its wire is broken, or it is pressed too hard (assumed)."""
 HELD = 0.5
 """s that a press must be held for."""
 STILL = 0.05
@@ -84,8 +87,18 @@ class _PadLog:
         """Return the error of this log."""
         return DataFileError(self.path, expected=expected, got=got)
 
-    def held(self, words: str, rows: Rows, channels: list[int], sign: float = 1.0) -> Rows:
+    def held(
+        self,
+        words: str,
+        rows: Rows,
+        channels: list[int],
+        sign: float = 1.0,
+        *,
+        saturated: bool = False,
+    ) -> Rows:
         """Return rows that are held still, those in which the sum of some channels is largest.
+
+        `saturated`: elements may be at the upper end of the converter's range.
 
         Raises:
             DataFileError: If none are, or a channel is at the end of the converter's range.
@@ -97,22 +110,38 @@ class _PadLog:
             if still.any():
                 strength = sign * windows[:, channels].mean(axis=-1).sum(axis=-1)
                 first = int(np.where(still, strength, -np.inf).argmax())
-                self._check(rows[first : first + count])
+                self._check(rows[first : first + count], saturated)
                 return rows[first : first + count]
         raise self.refusal(
             f"{HELD:g} s after {words!r} in which no channel moves by more than {1e3 * STILL:g} mV",
             f"none from {self.log['time'][rows[0]]:g} s on: take longer, and hold still",
         )
 
-    def _check(self, rows: Rows) -> None:
-        for name, least in zip(PAD_CHANNELS, (1,) * ELEMENTS + (0,), strict=True):
+    def _check(self, rows: Rows, saturated: bool) -> None:
+        element, layer = (1, LARGEST_COUNT + saturated), (0, LARGEST_COUNT)
+        for name, (least, end) in zip(PAD_CHANNELS, (element,) * ELEMENTS + (layer,), strict=True):
             counts = self.log[f"{name}_counts"][rows]
-            bad = (counts < least) | (counts >= LARGEST_COUNT)
+            bad = (counts < least) | (counts >= end)
             if bad.any():
                 raise self.refusal(
-                    f"{name}_counts between {least} and {LARGEST_COUNT - 1}",
+                    f"{name}_counts between {least} and {end - 1}",
                     f"{counts[bad][0]:g} at {self.log['time'][rows][bad][0]:g} s: saturated, "
                     "or a broken wire",
+                )
+
+    def check_saturated(self, contacts: Sequence[Rows]) -> None:
+        """Refuse an element that is at the end of the converter's range in too many contacts.
+
+        In a few it is at its ceiling, beyond its response of one, and nothing is lost.
+        """
+        for name in PAD_CHANNELS[:ELEMENTS]:
+            counts = self.log[f"{name}_counts"]
+            times = sum(bool((counts[rows] >= LARGEST_COUNT).any()) for rows in contacts)
+            if times > (most := int(SATURATED * len(contacts))):
+                raise self.refusal(
+                    f"{name}_counts of {LARGEST_COUNT} in {most} of {len(contacts)} contacts or "
+                    "less",
+                    f"in {times}: saturated, or a broken wire",
                 )
 
     def mean(self, rows: Rows) -> Floats:
@@ -191,7 +220,8 @@ def _presses(strongest: Floats) -> list[Rows]:
 def read_contacts(path: Path | str, labels: Sequence[Label] = ()) -> Contacts:
     """Read the contacts of a log of the pad, normalised by the log's own calibration.
 
-    A press that is not held still is left out, if another one of its stretch is.
+    A press that is not held still is left out, if another one of its stretch is. An element that a
+    contact brings to the end of the converter's range responds with one, as at the end of its own.
 
     Args:
         path: Of the log.
@@ -199,7 +229,8 @@ def read_contacts(path: Path | str, labels: Sequence[Label] = ()) -> Contacts:
 
     Raises:
         DataFileError: If it is no log of a pad, has no calibration or no contact, nothing was held
-            still after a word, a channel was saturated, or only some of the columns of `TRUTH` are
+            still after a word, a channel was saturated (an element in more contacts than
+            `SATURATED`), or only some of the columns of `TRUTH` are
             there.
         InvalidInputError: If a label has no rows, or other words than an event.
     """
@@ -216,7 +247,7 @@ def read_contacts(path: Path | str, labels: Sequence[Label] = ()) -> Contacts:
         before, failure = len(found), None
         for press in _presses(responses[rows].max(axis=1)):
             try:
-                at = pad.held(words, rows[press], [*range(ELEMENTS)])
+                at = pad.held(words, rows[press], [*range(ELEMENTS)], saturated=True)
                 found.append((kind, name, at))
             except DataFileError as error:
                 failure = error
@@ -227,6 +258,7 @@ def read_contacts(path: Path | str, labels: Sequence[Label] = ()) -> Contacts:
             "contacts: events, or labels, such as 'line: small carrot' or 'contact'",
             f"only {sorted({words for words, _ in pad.stretches})}",
         )
+    pad.check_saturated([at for _, _, at in found])
     kinds = np.array([kind if kind in KINDS else "" for kind, _, _ in found])
     one = [int(at[len(at) // 2]) for _, _, at in found]
     log, unknown = pad.log, np.full(len(found), np.nan)

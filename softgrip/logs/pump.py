@@ -15,6 +15,8 @@ LONGEST = 2.0
 board whose host hangs stops its motor by itself; a longer gap tells too little."""
 START = 1500.0
 """Pa: twice the noise of the pressure sensor. A push that begins above has lost its beginning."""
+SURE = 2.0
+"""Standard errors by which a start must be above it."""
 LEAST_ROWS = 8
 MOST_HIDDEN = 0.55
 """Share of the volume that is swept at low pressure of which one gap may hide the pressure. Up to
@@ -114,16 +116,17 @@ def check_start(path: Path | str, swept: Floats, pressure: Floats) -> None:
 
     Raises:
         DataFileError: If there are fewer than `LEAST_ROWS` rows, or a parabola through the pressure
-            begins above `START`.
+            begins above `START`, by more than noise makes it.
     """
     if swept.size < LEAST_ROWS or not np.ptp(swept) > 0:
         raise DataFileError(
             path, expected=f"{LEAST_ROWS} rows of a push at low pressure", got=str(swept.size)
         )
-    begun = float(np.polynomial.Polynomial.fit(swept, pressure, 2)(0.0))
+    found, covariance = np.polyfit(swept / np.ptp(swept), pressure, 2, cov=True)
+    begun = float(found[-1] - SURE * covariance[-1, -1] ** 0.5)
     if begun > START:
         raise DataFileError(
             path,
             expected=f"a push from atmospheric pressure, within {START:g} Pa",
-            got=f"{begun:.0f} Pa before the first row",
+            got=f"{begun:.0f} Pa or more before the first row",
         )

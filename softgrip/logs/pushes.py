@@ -62,10 +62,10 @@ class PressureComparison:
         return float(relative[np.argmax(np.abs(relative))])
 
 
-def _fit_capacity(path: Path | str, log: Log, swept: Floats) -> float:
-    """Return C of Eq. (4.5), fitted below `LOW`."""
-    volume, pressure = even_push(path, log, swept, LOW)
-    low = pressure < LOW
+def _fit_capacity(path: Path | str, log: Log, swept: Floats, below: float = LOW) -> float:
+    """Return C of Eq. (4.5), fitted below a pressure, Pa."""
+    volume, pressure = even_push(path, log, swept, below)
+    low = pressure < below
     check_start(path, volume[low], pressure[low])
     return float(volume[low] @ volume[low] / (volume[low] @ pressure[low]))
 
@@ -118,34 +118,36 @@ def prior(capacity: float) -> Prior:
     return Prior(0.0, 1e3, 1 / capacity, 0.3 / capacity)
 
 
-def compare(path: Path | str, *, noise_factor: float = 1.0) -> PressureComparison:
+def compare(
+    path: Path | str, *, noise: NoiseLevels | None = None, below: float = LOW
+) -> PressureComparison:
     """Hold the three models against a log of a push at one motor speed.
 
     Args:
         path: A log in the one schema, with area and lead of the pump in its header.
-        noise_factor: Multiplies the filter's elastance noise, > 0: above 1 it follows faster and
-            noisier.
+        noise: Levels of the filter, which follows faster and noisier the more the elastance has;
+            None for `reference_noise`.
+        below: Gauge pressure below which the capacity is fitted, Pa, up to `HIGH`.
 
     Raises:
         DataFileError: If the log cannot be read, or does not name its pump, or holds no pressure
-            below `LOW` and above `HIGH`, or its gaps or its start leave open what was swept.
+            below that and above `HIGH`, or its gaps or its start leave open what was swept.
     """
     log = read_log(path)
     pump = pump_of(Path(path), log)
     time, measured = log["time"], log["pressure"]
-    if not (measured.min() < LOW and measured.max() > HIGH):
+    if not (measured.min() < below and measured.max() > HIGH):
         raise DataFileError(
             path,
-            expected=f"a push from below {LOW / MPa:g} to above {HIGH / MPa:g} MPa",
+            expected=f"a push from below {below / MPa:g} to above {HIGH / MPa:g} MPa",
             got=f"{measured.min() / MPa:.3f} to {measured.max() / MPa:.3f} MPa",
         )
     flow = pump.displacement * log["command"]
     swept, steps = swept_volume(path, log, flow), intervals(time, log.header.period)
-    capacity = _fit_capacity(path, log, swept)
+    capacity = _fit_capacity(path, log, swept, below)
     growth = _fit_growth(swept, measured, capacity)
-    levels = reference_noise()
-    noise = NoiseLevels(levels.pressure_step, levels.elastance_step * noise_factor, levels.sensor)
-    model = ElastanceModel(log.header.period, noise, prior(capacity))
+    levels = reference_noise() if noise is None else noise
+    model = ElastanceModel(log.header.period, levels, prior(capacity))
     estimated = estimate(measured, flow, log["angle"], model, steps=steps)
     # What holds at a sample counts until the next one; over a gap, straight from one to the other.
     held, beyond = estimated.elastance[:-1], np.maximum(steps - 1, 0.0) / 2

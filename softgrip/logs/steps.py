@@ -43,6 +43,7 @@ class StepResponse:
             step, s; infinite if it does not, or if that begins only within the last `END` of the
             record: too short to call it rest.
         settled_2_deg, settled_5_deg: The same within 2 and 5 deg.
+        settled: The same within the band that was asked for.
         steady_state_error: Reference less the mean of the end, rad.
         swing: Half the distance of the least from the largest averaged angle of the end, rad.
         noise: Root mean square of what the averaging took away at the end, rad. A band below a few
@@ -53,6 +54,7 @@ class StepResponse:
     settled_5_percent: Floats
     settled_2_deg: Floats
     settled_5_deg: Floats
+    settled: Floats
     steady_state_error: Floats
     swing: Floats
     noise: Floats
@@ -79,6 +81,7 @@ def judge_step(
     initial: float = 0.0,
     about: About = "reference",
     window: float = WINDOW,
+    band: float = ANGLES[-1],
     measured: ArrayLike = True,
 ) -> StepResponse:
     """Judge a step.
@@ -90,6 +93,7 @@ def judge_step(
         about: Middle of the bands: the reference, or the mean of the response's own end. A response
             that keeps an error as large as the band settles about the second alone.
         window: Of the averaging, s; 0 for a response without noise.
+        band: Half width of a further band, rad, > 0.
         measured: Which samples were measured and not bridged, shape (N,): the noise is that of
             these.
 
@@ -103,12 +107,12 @@ def judge_step(
     own = final_value(t, raw, window=END)
     middle = np.broadcast_to(target, own.shape) if about == "reference" else own
     tail = t >= t[-1] - END
-    bands = [(x, False) for x in SHARES] + [(x, True) for x in ANGLES]
+    bands = [(x, False) for x in SHARES] + [(x, True) for x in (*ANGLES, band)]
     found = [
-        settling_time(t, y, final=middle, initial=initial, band=band, absolute=absolute)
-        for band, absolute in bands
+        settling_time(t, y, final=middle, initial=initial, band=width, absolute=absolute)
+        for width, absolute in bands
     ]
-    two_percent, five_percent, two_deg, five_deg = (
+    two_percent, five_percent, two_deg, five_deg, own_band = (
         np.where(time > t[-1] - END, np.inf, time) for time in found
     )
     return StepResponse(
@@ -116,6 +120,7 @@ def judge_step(
         settled_5_percent=five_percent,
         settled_2_deg=two_deg,
         settled_5_deg=five_deg,
+        settled=own_band,
         steady_state_error=np.asarray(target - own),
         swing=np.asarray(np.ptp(y[..., tail], axis=-1) / 2),
         noise=np.asarray(np.std((raw - y)[..., tail & np.asarray(measured)], axis=-1)),
@@ -123,14 +128,18 @@ def judge_step(
 
 
 def judge_step_log(
-    path: Path | str, *, about: About = "reference", window: float = WINDOW
+    path: Path | str,
+    *,
+    about: About = "reference",
+    window: float = WINDOW,
+    band: float = ANGLES[-1],
 ) -> StepResponse:
     """Judge the step that a log holds.
 
     Args:
         path: Of a log with a column `reference` [rad], which either changes once or is one number
             throughout, the step being at time 0.
-        about, window: As of `judge_step`.
+        about, window, band: As of `judge_step`.
 
     Raises:
         DataFileError: If the log has no reference, its reference is no single step, rows are
@@ -161,5 +170,6 @@ def judge_step_log(
         initial=initial,
         about=about,
         window=window,
+        band=band,
         measured=clock.measured[start:],
     )

@@ -6,7 +6,9 @@ begin at atmospheric pressure, and at the end all of that charge is at the press
 
 from dataclasses import dataclass
 
-from softgrip.arrays import check_positive
+import numpy as np
+
+from softgrip.arrays import Number, check_positive
 from softgrip.checks import check_not_negative
 from softgrip.errors import InvalidInputError
 from softgrip.pump.gas import ATMOSPHERE
@@ -24,10 +26,10 @@ class Finger:
         rise_time: From rest to the pressure, s, > 0.
     """
 
-    gauge_pressure: float
-    volume_at_rest: float
-    volume_at_pressure: float
-    dead_volume: float
+    gauge_pressure: Number
+    volume_at_rest: Number
+    volume_at_pressure: Number
+    dead_volume: Number
     rise_time: float
 
     def __post_init__(self) -> None:
@@ -37,15 +39,15 @@ class Finger:
             rise_time=self.rise_time,
         )
         check_not_negative(dead_volume=self.dead_volume)
-        if not self.volume_at_pressure >= self.volume_at_rest:
+        if not np.all(self.volume_at_pressure >= self.volume_at_rest):
             raise InvalidInputError(
                 "volume_at_pressure",
-                expected=f"at least the volume at rest, {self.volume_at_rest:g}",
+                expected=f"at least the volume at rest, {self.volume_at_rest}",
                 got=self.volume_at_pressure,
             )
 
 
-def swept_volume(finger: Finger, start_volume: float, atmosphere: float = ATMOSPHERE) -> float:
+def swept_volume(finger: Finger, start_volume: Number, atmosphere: Number = ATMOSPHERE) -> Number:
     """Return the volume to push for the wanted pressure, by the exact isothermal gas law.
 
     ``P_0 (V_s + V_rest + V_dead) = P_1 (V_s - s + V_pressure + V_dead)`` is solved for s.
@@ -56,7 +58,7 @@ def swept_volume(finger: Finger, start_volume: float, atmosphere: float = ATMOSP
         atmosphere: P_0, Pa, > 0.
 
     Returns:
-        float: s, m^3. Above `start_volume` if the syringe does not hold enough.
+        s, m^3. Above `start_volume` if the syringe does not hold enough.
 
     >>> finger = Finger(101325.0, 20e-6, 20e-6, 0.0, 1.0)  # double the pressure: half the volume
     >>> round(swept_volume(finger, 60e-6) * 1e6, 6)
@@ -65,7 +67,8 @@ def swept_volume(finger: Finger, start_volume: float, atmosphere: float = ATMOSP
     check_positive(start_volume=start_volume, atmosphere=atmosphere)
     ratio = atmosphere / (atmosphere + finger.gauge_pressure)
     before = start_volume + finger.volume_at_rest + finger.dead_volume
-    return start_volume + finger.volume_at_pressure + finger.dead_volume - ratio * before
+    swept: Number = start_volume + finger.volume_at_pressure + finger.dead_volume - ratio * before
+    return swept
 
 
 def least_start_volume(finger: Finger, atmosphere: float = ATMOSPHERE) -> float:
@@ -80,4 +83,4 @@ def least_start_volume(finger: Finger, atmosphere: float = ATMOSPHERE) -> float:
     check_positive(atmosphere=atmosphere)
     ratio = (atmosphere + finger.gauge_pressure) / atmosphere
     at_rest = finger.volume_at_rest + finger.dead_volume
-    return ratio * (finger.volume_at_pressure + finger.dead_volume) - at_rest
+    return float(ratio * (finger.volume_at_pressure + finger.dead_volume) - at_rest)

@@ -1,4 +1,4 @@
-"""``python -m softgrip.rig``: check a rig, find a board, or judge a log."""
+"""``python -m softgrip.rig``: check a rig, find a board, judge a log, or fit a rig to logs."""
 
 import argparse
 import sys
@@ -11,6 +11,7 @@ from softgrip.logs.reader import read_log
 from softgrip.rig.acceptance import Experiment, judge, report
 from softgrip.rig.check import run_check
 from softgrip.rig.connect import connect
+from softgrip.rig.fit import add_fit_arguments, run_fit
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -25,6 +26,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     one = commands.add_parser("accept", help="judge the log of a step against the printed numbers")
     one.add_argument("log")
     one.add_argument("--experiment", choices=get_args(Experiment), required=True)
+    one = commands.add_parser("fit", help="fit the simulated rig to your own logs")
+    add_fit_arguments(one)
     asked = parser.parse_args(arguments)
     try:
         if asked.command == "check":
@@ -35,6 +38,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             seen = candidates()
             print("\n".join(map(str, seen)) or "no USB port of a known maker")
             return int(not any(candidate.answered for candidate in seen))
+        if asked.command == "fit":
+            return run_fit(asked)
         bands = judge(asked.log, asked.experiment)
         for words in read_log(asked.log).repairs:
             print(f"note  {words}")

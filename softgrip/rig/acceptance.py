@@ -18,8 +18,8 @@ from softgrip.logs.gaps import EvenClock, even_clock, refuse_gaps, refuse_late_s
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import Log
 from softgrip.logs.steps import AVERAGING, BRIDGED, WINDOW, judge_step
-from softgrip.simulator.calibration import FULL_PRESSURE
 from softgrip.simulator.parameters import SensorParameters
+from softgrip.simulator.statics import FULL_PRESSURE
 from softgrip.units import DEG, MPa
 
 Experiment = Literal["lqr", "pid", "gripper"]

@@ -12,7 +12,7 @@ from softgrip.board.protocol import TELEMETRY_PERIOD
 from softgrip.errors import UnknownNameError
 from softgrip.rig.interface import Rig
 from softgrip.rig.replay import Replay
-from softgrip.rig.simulated import simulated_finger, simulated_gripper
+from softgrip.rig.simulated import fitted_rig, simulated_finger, simulated_gripper
 
 NAMED: dict[str, Callable[..., Rig]] = {
     "simulated": simulated_finger,
@@ -35,10 +35,11 @@ def connect(
 
     Args:
         where: "simulated" for the finger of Chapters 3 to 5, "simulated:gripper" for the two of
-            Chapter 6; "emulated" and "emulated:gripper" for the same at the pins of an emulated
-            ATmega2560 that runs the firmware, whose virtual time goes on when a sample is asked
-            for; "replay:PATH" for a log; a port or a URL such as "socket://host:port"; or None for
-            the one board that is found on USB.
+            Chapter 6, "simulated:FILE.csv" for a rig that was fitted to logs; "emulated" and
+            "emulated:gripper" for the same at the pins of an emulated ATmega2560 that runs the
+            firmware, whose virtual time goes on when a sample is asked for; "replay:PATH" for a
+            log; a port or a URL such as "socket://host:port"; or None for the one board that is
+            found on USB.
         fingers, period: Of a board on a port; the others have their own.
         calibration: File of `calibration`, for a board on a port; None for the data sheets' lines.
         seed: Of chance, for what is simulated or emulated.
@@ -49,7 +50,7 @@ def connect(
         BoardError: If a board cannot be reached.
         EmulatorUnavailableError: If the compiler or the emulator is not installed; it says how to
             get them.
-        DataFileError: If a log or a calibration cannot be read.
+        DataFileError: If a log, a rig's file or a calibration cannot be read.
 
     >>> with connect("simulated") as rig:
     ...     rig.home()
@@ -57,8 +58,10 @@ def connect(
     0.025
     """
     if where is not None and where.partition(":")[0] in ("simulated", "emulated"):
+        if where.startswith("simulated:") and where.endswith(".csv"):
+            return fitted_rig(where.removeprefix("simulated:"), seed=seed)
         if where not in NAMED:
-            raise UnknownNameError("back end", where, [*NAMED])
+            raise UnknownNameError("back end", where, [*NAMED, "simulated:RIG.csv"])
         return NAMED[where](seed=seed)
     if where is not None and where.startswith("replay:"):
         return Replay(where.removeprefix("replay:"))

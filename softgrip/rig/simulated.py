@@ -1,5 +1,7 @@
 """The simulated rig behind the interface of a board; it refuses what the board refuses."""
 
+from pathlib import Path
+
 from numpy.typing import ArrayLike
 
 from softgrip.errors import InvalidInputError
@@ -7,23 +9,28 @@ from softgrip.gripper.internal_model import PERIOD
 from softgrip.logs.schema import LogHeader
 from softgrip.provenance import Provenance
 from softgrip.rig.interface import StandIn
-from softgrip.simulator.calibration import FULL_PRESSURE, design_1
-from softgrip.simulator.calibration_table import FILE
-from softgrip.simulator.gripper_calibration_table import FILE as GRIPPER_FILE
-from softgrip.simulator.gripper_parameters import printed_gripper
+from softgrip.simulator.fitted_rigs import DESIGN_1, GRIPPER, design_1, printed_gripper
+from softgrip.simulator.rig_file import read_rig
 from softgrip.simulator.sensors import Measurement
 from softgrip.simulator.simulation import Simulation
+from softgrip.simulator.statics import FULL_PRESSURE
 
 
 def simulated_finger(*, seed: int = 0) -> "SimulatedRig":
     """Return the finger of Chapters 3 to 5, sampled each 25 ms."""
-    return SimulatedRig(Simulation(design_1(), seed=seed), f"data/{FILE}", seed)
+    return SimulatedRig(Simulation(design_1(), seed=seed), f"data/{DESIGN_1}", seed)
 
 
 def simulated_gripper(*, seed: int = 0) -> "SimulatedRig":
     """Return the two fingers of Section 6.4, sampled each 100 ms, left finger first."""
     rig = Simulation(printed_gripper(), seed=seed, period=PERIOD)
-    return SimulatedRig(rig, f"data/{GRIPPER_FILE}", seed)
+    return SimulatedRig(rig, f"data/{GRIPPER}", seed)
+
+
+def fitted_rig(path: Path | str, *, seed: int = 0) -> "SimulatedRig":
+    """Return a rig of a reader's own, from the file that a fit wrote, sampled as its logs were."""
+    own = read_rig(path)
+    return SimulatedRig(Simulation(own.rig, seed=seed, period=own.period), Path(path).name, seed)
 
 
 class SimulatedRig(StandIn):

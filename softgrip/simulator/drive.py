@@ -1,5 +1,6 @@
 """A controller on a batch of runs of the simulated rig, one period at a time."""
 
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -37,6 +38,7 @@ def drive(
     limit: float = SPEED_LIMIT,
     push: Callable[[float], ArrayLike] | None = None,
     every: int = 1,
+    delay: int = 0,
 ) -> Driven:
     """Run a controller on a rig at rest; the first sample is taken before it moves.
 
@@ -48,7 +50,10 @@ def drive(
         push: From the time [s] at which a period begins to the torque on the fingers over it, N m,
             of a shape that broadcasts to (fingers, runs); None for none.
         every: Periods of the rig in one of the controller's, >= 1; in between the command is held.
+        delay: Periods of the controller by which its command comes late, >= 0; until the first
+            comes, the motor is sent 0.
     """
+    late = deque([np.zeros(rig.runs)] * delay)
     measured, truths = [rig.measure()], [rig.truth]
     commands = [np.zeros(rig.runs)]
     for k in range(round(duration / rig.period)):
@@ -56,7 +61,8 @@ def drive(
             rig.push(push(rig.time))
         if k % every == 0:
             wanted = np.clip(controller.update(measured[-1].angle), -limit, limit)
-            command = np.broadcast_to(wanted, (rig.runs,))
+            late.append(np.broadcast_to(wanted, (rig.runs,)))
+            command = late.popleft()
         commands.append(command)
         measured.append(rig.advance(command))
         truths.append(rig.truth)

@@ -3,7 +3,7 @@
 It stands for the lower layer of the pad of Chapter 2. What the text gives of it: its resistance
 falls with force, strongly nonlinearly; its range is 0.7 N; a bridge and an INA126 bring its
 voltage to a converter of 10 bits; it drifts linearly, and shows some hysteresis. Everything else
-is assumed, in `ForceLayer`.
+is assumed, in `ForceLayer`, or fitted to the print: `fitted_rigs.fitted_layer`.
 """
 
 from dataclasses import dataclass
@@ -11,13 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import lfilter
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, Number
 from softgrip.simulator.sensors import Counts
 
 
 @dataclass(frozen=True)
 class ForceLayer:
-    """The layer's parameters; each with the reason for its value.
+    """The layer's parameters; each with the reason for its default, with which the fit began.
 
     Attributes:
         rest_resistance: Ohm, unloaded. Assumed: kilohms, as sheets of some cm^2 have.
@@ -25,8 +25,8 @@ class ForceLayer:
         bridge_resistance: Ohm, of the arm beside the layer. Assumed: so small that the bridge's
             largest voltage, amplified, leaves a fifth of the converter's scale for drift.
         soft_force: N, over which the conductance closes in on that of a very large force, as 1 -
-            exp(-F / soft_force). Calibrated to the range of 0.7 N: a gram-force moves the voltage
-            there by about one count, less than the noise of a reading.
+            exp(-F / soft_force). From the range of 0.7 N: a gram-force moves the voltage there by
+            about one count, less than the noise of a reading.
         memory: Parts of the felt force that lag behind, fast and slow. Assumed: a tenth and a
             twentieth, as filled polymers under pressure creep by about that much in a minute.
         lag: s, of the two. Assumed: the fast one shorter than a grasp, the slow one longer.
@@ -39,7 +39,7 @@ class ForceLayer:
         offset_drift: V/h, of bridge and amplifier. Assumed.
         seating, object_seating: Spread of the part of a calibration weight, and of an object, that
             the layer feels, one deviation. The first assumed: a weight is a little off the middle.
-            The second calibrated to Table 2.2: the four stiffer objects' deviations are 6.2 % of
+            The second from Table 2.2: the four stiffer objects' deviations are 6.2 % of
             their weights (root mean square).
         largest_count: Of the converter: 10 bits.
     """
@@ -47,26 +47,17 @@ class ForceLayer:
     rest_resistance: float = 20e3
     pressed_resistance: float = 5e3
     bridge_resistance: float = 1.5e3
-    soft_force: float = 0.20
-    memory: tuple[float, float] = (0.10, 0.05)
+    soft_force: Number = 0.20
+    memory: tuple[Number, Number] = (0.10, 0.05)
     lag: tuple[float, float] = (0.5, 20.0)
     supply: float = 5.0
     amplification: float = 5.0
-    voltage_noise: float = 2.5e-3
+    voltage_noise: Number = 2.5e-3
     gain_drift: float = 0.03
     offset_drift: float = 0.02
-    seating: float = 0.02
-    object_seating: float = 0.062
+    seating: Number = 0.02
+    object_seating: Number = 0.062
     largest_count: int = 1023
-
-
-CALIBRATED = {
-    "soft_force": "Section 2.2: the range of 0.7 N",
-    "supply": "Section 2.4: the Arduino MEGA 2560",
-    "largest_count": "Section 2.4: 10 bits",
-    "object_seating": "Table 2.2: deviations of coin, carrot, sausage and egg",
-}
-"""What of `ForceLayer` was taken from the print, and from where: never claimed as found."""
 
 
 def felt_force(force: Floats, period: float, layer: ForceLayer) -> Floats:
@@ -110,7 +101,8 @@ def layer_voltage(felt: Floats, age: float | Floats, layer: ForceLayer) -> Float
 def read_counts(voltage: Floats, noise: Floats, layer: ForceLayer) -> Counts:
     """Return the counts of the converter; `noise` is standard normal, shape as the voltage."""
     scaled = (voltage + layer.voltage_noise * noise) * layer.largest_count / layer.supply
-    return np.clip(np.rint(scaled), 0, layer.largest_count).astype(np.int64)
+    counts: Counts = np.clip(np.rint(scaled), 0, layer.largest_count).astype(np.int64)
+    return counts
 
 
 def volts(counts: Counts, layer: ForceLayer) -> Floats:

@@ -6,6 +6,7 @@ import numpy as np
 
 from softgrip.arrays import Floats
 from softgrip.simulator.chance import streams
+from softgrip.simulator.fitted_rigs import fitted_pad
 from softgrip.simulator.pad_contact import bed_points, element_forces, spring_stiffness
 from softgrip.simulator.pad_objects import PadObject, pad_object
 from softgrip.simulator.pad_parameters import PadParameters
@@ -115,6 +116,6 @@ def responses_to(pad: Pad, forces: Floats) -> Floats:
 
 
 def ideal_responses(name: str, pose: Pose, force: float) -> Floats:
-    """Return what a pad whose elements are alike says of a smooth object, shape (8,)."""
-    pad = make_pad(PadParameters())
+    """Return what the fitted pad, all its elements alike, says of a smooth object, shape (8,)."""
+    pad = make_pad(fitted_pad())
     return responses_to(pad, press(pad, pad_object(name), pose, force))

@@ -9,7 +9,8 @@ from softgrip.arrays import Floats
 from softgrip.control.loop import run_loop
 from softgrip.control.pid import PERIOD, Gains
 from softgrip.simulator.chance import streams
-from softgrip.simulator.force_layer import ForceLayer, layer_voltage, read_counts
+from softgrip.simulator.fitted_rigs import fitted_layer
+from softgrip.simulator.force_layer import layer_voltage, read_counts
 from softgrip.simulator.pad_gripper import GraspGripper, Squeeze, servo_position
 from softgrip.tactile.force_control import Command, ForceController
 
@@ -39,7 +40,8 @@ class PadGrasp:
         runs: int,
         seed: int,
     ) -> None:
-        self._squeeze, self._gripper, self._layer, self._told = squeeze, gripper, ForceLayer(), told
+        self._squeeze, self._gripper, self._told = squeeze, gripper, told
+        self._layer = fitted_layer()
         chance = [streams(seed, run) for run in range(runs)]
         drawn = np.array([own.standard_normal() for own, _ in chance])
         self._felt_part = np.exp(self._layer.object_seating * drawn)

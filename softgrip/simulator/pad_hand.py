@@ -11,9 +11,9 @@ import numpy as np
 from softgrip.arrays import Floats
 from softgrip.logs.contacts import CONTACT, PRESS, REST, WEIGHT, weight_of
 from softgrip.simulator.chance import SEED, streams
+from softgrip.simulator.fitted_rigs import fitted_pad
 from softgrip.simulator.pad import Pad, convert, make_pad, press, voltages
 from softgrip.simulator.pad_objects import PadObject, pad_object
-from softgrip.simulator.pad_parameters import PadParameters
 from softgrip.simulator.pad_surface import Pose
 from softgrip.simulator.sensors import Counts
 from softgrip.tactile.contacts import KINDS
@@ -63,7 +63,7 @@ class PadHand:
     """
 
     def __init__(self, *, seed: int = 0, pad_seed: int = SEED) -> None:
-        self.parameters = PadParameters()
+        self.parameters = fitted_pad()
         self.presses: list[Press] = []
         self._pad = self._own_pad = make_pad(self.parameters, pad_seed)
         self._chance, self._noise = streams(seed, 0)

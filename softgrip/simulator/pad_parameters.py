@@ -1,4 +1,4 @@
-"""What the simulated pad is made of. No measurement of a pad is printed that could calibrate it."""
+"""What the simulated pad is made of. The defaults are those with which the fit began."""
 
 from dataclasses import dataclass, field
 
@@ -17,7 +17,7 @@ ZERO_ALLOWED = (
 class PadParameters:
     """The pad, its cover, its circuits and its imperfections; each stands with its reason.
 
-    None was chosen by what an estimator makes of the simulated pad.
+    No default was chosen by what an estimator makes of the pad; `fitted_rigs.fitted_pad` was.
 
     Attributes:
         layout: Places of the elements (assumed: rows of 3, 2 and 3; not printed).

@@ -1,8 +1,14 @@
-"""What the simulated rig is made of: pump, gas, finger, sensors, and their spread over runs."""
+"""What the simulated rig is made of: pump, gas, finger, sensors, and their spread over runs.
+
+A parameter is a number; where each run has a rig of its own, an array of shape (runs,).
+"""
 
 from dataclasses import dataclass, field
 
-from softgrip.checks import check_fields
+import numpy as np
+
+from softgrip.arrays import Number, check_positive
+from softgrip.checks import check_fields, check_not_negative
 from softgrip.errors import InvalidInputError
 from softgrip.pump.gas import ATMOSPHERE
 from softgrip.units import DEG, ML, MM, PSI, REV
@@ -18,24 +24,28 @@ class PumpParameters:
         syringe_volume: Air in the syringe when its plunger is drawn out, m^3.
         speed_limit: Largest motor speed, rad/s.
         acceleration_limit: Largest change of motor speed, rad/s^2 (assumed: 0.1 s to full speed).
+        backlash: Travel of the screw that is lost to the plunger when it turns round, m. A seal
+            that sticks looks the same to the air. At first it is drawn back, so that the first
+            push loses it.
     """
 
-    area: float = 6.61e-4
-    lead: float = 8 * MM
-    syringe_volume: float = 60 * ML
-    speed_limit: float = 5 * REV
-    acceleration_limit: float = 50 * REV
+    area: Number = 6.61e-4
+    lead: Number = 8 * MM
+    syringe_volume: Number = 60 * ML
+    speed_limit: Number = 5 * REV
+    acceleration_limit: Number = 50 * REV
+    backlash: Number = 0.0
 
     def __post_init__(self) -> None:
-        check_fields(self)
+        check_fields(self, zero=("backlash",))
 
     @property
-    def stroke(self) -> float:
+    def stroke(self) -> Number:
         """Travel of the plunger, m."""
         return self.syringe_volume / self.area
 
     @property
-    def advance(self) -> float:
+    def advance(self) -> Number:
         """Travel of the plunger per angle of the motor, ``l / 2 pi``, m/rad."""
         return self.lead / REV
 
@@ -52,10 +62,10 @@ class GasParameters:
             gas through a narrow gap (assumed: 0.2 % of the air a second at 0.15 MPa).
     """
 
-    temperature: float = 293.15
-    atmosphere: float = ATMOSPHERE
-    dead_volume: float = 2 * ML
-    leakage: float = 7e-13
+    temperature: Number = 293.15
+    atmosphere: Number = ATMOSPHERE
+    dead_volume: Number = 2 * ML
+    leakage: Number = 7e-13
 
     def __post_init__(self) -> None:
         check_fields(self, zero=("leakage", "dead_volume"))
@@ -63,7 +73,7 @@ class GasParameters:
 
 @dataclass(frozen=True)
 class FingerParameters:
-    """The finger. `softgrip.simulator.calibration` gives those of Design 1.
+    """The finger. `softgrip.simulator.fitted_rigs` gives those of Design 1.
 
     Attributes:
         stiffness: K of the settled torque ``K theta**n``, N m/rad^n.
@@ -80,26 +90,31 @@ class FingerParameters:
         friction: Torque of dry friction, N m (assumed), smoothed below `friction_rate`, rad/s.
     """
 
-    stiffness: float
-    fractional_power: float
-    inertia: float
-    damping: float
-    torque_per_pressure: float
-    rest_volume: float
-    ballooning: float = 6e-12
-    memory: tuple[float, ...] = (0.08, 0.05)
-    memory_time: tuple[float, ...] = (0.5, 8.0)
-    friction: float = 1e-4
-    friction_rate: float = 0.05
+    stiffness: Number
+    fractional_power: Number
+    inertia: Number
+    damping: Number
+    torque_per_pressure: Number
+    rest_volume: Number
+    ballooning: Number = 6e-12
+    memory: tuple[Number, ...] = (0.08, 0.05)
+    memory_time: tuple[Number, ...] = (0.5, 8.0)
+    friction: Number = 1e-4
+    friction_rate: Number = 0.05
 
     def __post_init__(self) -> None:
         check_fields(
-            self, zero=("damping", "ballooning", "memory", "friction", "torque_per_pressure")
+            self,
+            zero=("damping", "ballooning", "friction", "torque_per_pressure"),
+            other=("memory", "memory_time"),
         )
-        if self.fractional_power < 1:
+        if np.any(self.fractional_power < 1):
             raise InvalidInputError("fractional_power", expected=">= 1", got=self.fractional_power)
         if len(self.memory) != len(self.memory_time):
             raise InvalidInputError("memory", expected="one for each memory_time", got=self.memory)
+        for part, time in zip(self.memory, self.memory_time, strict=True):
+            check_not_negative(memory=part)
+            check_positive(memory_time=time)
 
 
 @dataclass(frozen=True)
@@ -120,19 +135,20 @@ class SensorParameters:
         bits: Of the converter.
     """
 
-    pressure_range: float = 80 * PSI
-    pressure_noise: float = 500.0
-    pressure_lag: float = 0.015
-    angle_range: float = 100 * DEG
-    angle_noise: float = 2 * DEG
-    angle_lag: float = 0.04
-    low_count: float = 102.3
-    high_count: float = 920.7
-    bits: int = 10
+    pressure_range: Number = 80 * PSI
+    pressure_noise: Number = 500.0
+    pressure_lag: Number = 0.015
+    angle_range: Number = 100 * DEG
+    angle_noise: Number = 2 * DEG
+    angle_lag: Number = 0.04
+    low_count: Number = 102.3
+    high_count: Number = 920.7
+    bits: Number = 10
 
     def __post_init__(self) -> None:
         check_fields(self, zero=("pressure_noise", "angle_noise", "low_count"))
-        if not self.low_count < self.high_count <= self.largest_count:
+        rising = (self.low_count < self.high_count) & (self.high_count <= self.largest_count)
+        if not np.all(rising):
             raise InvalidInputError(
                 "low_count, high_count",
                 expected=f"rising, up to {self.largest_count}",
@@ -140,9 +156,9 @@ class SensorParameters:
             )
 
     @property
-    def largest_count(self) -> int:
+    def largest_count(self) -> Number:
         """Count at the end of the converter's scale."""
-        return int(2**self.bits) - 1
+        return 2**self.bits - 1
 
 
 @dataclass(frozen=True)
@@ -154,9 +170,9 @@ class Spread:
         leakage: Of the air path (assumed).
     """
 
-    stiffness: float = 0.0
-    damping: float = 0.0
-    leakage: float = 0.0
+    stiffness: Number = 0.0
+    damping: Number = 0.0
+    leakage: Number = 0.0
 
     def __post_init__(self) -> None:
         check_fields(self, zero=("stiffness", "damping", "leakage"))

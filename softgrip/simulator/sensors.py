@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, Number
 from softgrip.simulator.parameters import SensorParameters
 
 Counts = NDArray[np.int64]
@@ -29,7 +29,19 @@ class Measurement:
     angle_counts: Counts
 
 
-def to_counts(value: Floats, full: float, sensors: SensorParameters) -> Counts:
+def rounded(value: Number, full: Number, sensors: SensorParameters) -> Number:
+    """Return the counts of `to_counts` as floats; for the kernel, which compiles this."""
+    span = sensors.high_count - sensors.low_count
+    counts = np.rint(sensors.low_count + value * (span / full))
+    return np.minimum(np.maximum(counts, 0.0), sensors.largest_count)
+
+
+def read_back(counts: Number, full: Number, sensors: SensorParameters) -> Number:
+    """Return the value that a count stands for: the line of `to_counts`, read backwards."""
+    return (counts - sensors.low_count) * (full / (sensors.high_count - sensors.low_count))
+
+
+def to_counts(value: Floats, full: Number, sensors: SensorParameters) -> Counts:
     """Return the counts of a sensor, rounded and cut to the converter's scale.
 
     Args:
@@ -40,15 +52,13 @@ def to_counts(value: Floats, full: float, sensors: SensorParameters) -> Counts:
     >>> to_counts(np.array([0.0, 1.0, 9.0]), 1.0, SensorParameters()).tolist()
     [102, 921, 1023]
     """
-    span = sensors.high_count - sensors.low_count
-    scaled = np.rint(sensors.low_count + value * (span / full))
-    return np.clip(scaled, 0, sensors.largest_count).astype(np.int64)
+    counts: Counts = rounded(value, full, sensors).astype(np.int64)
+    return counts
 
 
-def from_counts(counts: Counts, full: float, sensors: SensorParameters) -> Floats:
-    """Return the value that a count stands for: the line of `to_counts`, read backwards."""
-    span = sensors.high_count - sensors.low_count
-    value: Floats = (counts.astype(np.float64) - sensors.low_count) * (full / span)
+def from_counts(counts: Counts, full: Number, sensors: SensorParameters) -> Floats:
+    """Return `read_back` of counts."""
+    value: Floats = read_back(counts.astype(np.float64), full, sensors)
     return value
 
 
@@ -59,9 +69,10 @@ def measure(
 
     Args:
         time: s.
-        pressure, angle: Outputs of the lags, Pa gauge and rad, shape (runs,) and (fingers, runs).
-        noise: Standard normal numbers, shape (1 + fingers, runs): of the pressure and of each
-            angle.
+        pressure, angle: Outputs of the lags, Pa gauge and rad, shape (..., runs) and
+            (fingers, ..., runs).
+        noise: Standard normal numbers, shape (1 + fingers, ..., runs): of the pressure and of
+            each angle.
         sensors: Their parameters.
     """
     felt_pressure = np.minimum(pressure, sensors.pressure_range)

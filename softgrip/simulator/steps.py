@@ -4,6 +4,7 @@ from dataclasses import replace
 from math import ceil
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from softgrip.arrays import Floats, check_positive
@@ -16,21 +17,20 @@ DURATION = 6.0
 """Of a test, s (assumed)."""
 
 
-def step_commands(plunger: float) -> Floats:
+def step_commands(plunger: ArrayLike) -> Floats:
     """Return the motor speeds, rad/s, that push to a place of the plunger as fast as can be.
 
     Args:
-        plunger: Travel, m, > 0 and within the stroke.
+        plunger: Travel, m, > 0 and within the stroke, any shape; an axis of periods is added.
     """
     check_positive(plunger=plunger)
-    pump = PumpParameters()
+    pump, travel = PumpParameters(), np.asarray(plunger, dtype=np.float64)[..., None]
     # What ramping up loses, ramping down after the command adds, if the speed is reached: then the
     # place is met exactly.
     ramp = ceil(pump.speed_limit / pump.acceleration_limit / PERIOD)
-    pushing = max(ramp, ceil(plunger / (pump.advance * pump.speed_limit * PERIOD)))
-    commands = np.zeros(round(DURATION / PERIOD))
-    commands[:pushing] = plunger / (pump.advance * pushing * PERIOD)
-    return commands
+    pushing = np.maximum(ramp, np.ceil(travel / (pump.advance * pump.speed_limit * PERIOD)))
+    speed = travel / (pump.advance * pushing * PERIOD)
+    return np.where(np.arange(round(DURATION / PERIOD)) < pushing, speed, 0.0)
 
 
 def simulate_step_test(rig: RigParameters, plunger: float, *, runs: int, seed: int) -> StepTest:

@@ -15,7 +15,7 @@ from tests.bench.fingers import ALLOWED, batch, choose_step, plain, responses
 
 SMALL = {
     "step_responses": {"runs": 4, "plain_runs": 2, "checked": 2, "repetitions": 1},
-    "rig": {"seconds": 0.25, "runs": 3, "repetitions": 1},
+    "rig": {"seconds": 0.25, "runs": 3, "experiment": 0.25, "repetitions": 1},
     "growth": {"runs": (2, 4, 8), "repetitions": 1},
     "controller": {"count": 50, "repetitions": 2},
     # Ours alone: PyElastica would have to be fetched.
@@ -24,6 +24,7 @@ SMALL = {
     "kernel_regression": {"queries": 500, "other": 20, "repetitions": 1, "plain": 50},
     "board": {"seconds": 0.5, "count": 5, "stops": 2},
     "pad_reading": {"count": 50, "plain": 5, "repetitions": 1},
+    "twin": {"rigs_at_a_time": 2, "experiments": ("statics", "lifts")},
     "grippers": {"pairs": 4, "plain_pairs": 1, "growth": (2, 4, 8), "repetitions": 1},
 }
 KINDS = {

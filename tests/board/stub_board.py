@@ -8,9 +8,9 @@ from softgrip.board import protocol
 from softgrip.board.errors import ConnectionLostError
 from softgrip.board.framing import Frame, FrameReader, encode
 from softgrip.board.protocol import Flag, Reason, SetUp
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import REV
+from tests.simulator.rigs import design_1
 
 STEPS = 800
 LIMITS = {"pressure": 399, "position": 9000, "speed": 4000, "acceleration": 40000, "silence": 200}

@@ -12,11 +12,11 @@ from softgrip.board.driver import HUNG_AFTER, Board
 from softgrip.board.framing import Frame, encode
 from softgrip.board.protocol import ACK, HOME, SETPOINT, TABLE, TELEMETRY_PERIOD, Flag
 from softgrip.errors import InvalidInputError
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import PSI, REV
 from tests.board.stub_board import HARD, LIMITS, StubBoard
 from tests.rig.test_live import until
+from tests.simulator.rigs import design_1
 
 
 def push_until(rig, event, samples=400):

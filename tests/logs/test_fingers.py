@@ -7,30 +7,23 @@ import pytest
 
 from book.chapter_6 import results
 from book.chapter_6 import speed as gripper_speed
-from book.chapter_6.comparison import CRITERIA, judged
+from book.chapter_6.comparison import ENTRIES, criteria, judged
 from book.chapter_6.controllers import best_command, own_model, printed_model, target_angles
 from book.chapter_6.grasps import STEP, grasp
 from book.chapter_6.logs import LOGS, names_of
+from book.companion.claims import printed
 from book.companion.simulated_logs import make
 from softgrip.control.state_feedback import SPEED_DIGITS
 from softgrip.dynamics.second_order import SecondOrder, response
 from softgrip.errors import DataFileError
-from softgrip.gripper.plant import FingerDynamics
+from softgrip.gripper.plant import LEFT, RIGHT, FingerDynamics
 from softgrip.gripper.synchronization import synchronization_error
 from softgrip.logs.fingers import GripperLogs, identified_gripper, read_runs, run_deviation
 from softgrip.logs.reader import read_log
 from softgrip.provenance import data_file, data_folder
-from softgrip.simulator import gripper_calibration_table
-from softgrip.simulator.gripper_calibration import step_identifies
-from softgrip.simulator.gripper_parameters import (
-    LEFT,
-    OPEN_LOOP_ANGLES,
-    RIGHT,
-    TRAVEL,
-    largest_of,
-    printed_gripper,
-)
-from softgrip.units import DEG, REV
+from softgrip.simulator.gripper_steps import step_identifies
+from softgrip.units import DEG, MM, REV
+from tests.simulator.rigs import printed_gripper
 
 
 @pytest.mark.parametrize("name", [n for n in LOGS if n.endswith(("-1", "-7"))])
@@ -99,47 +92,32 @@ def test_fingers_in_one_share_are_in_step():
     assert synchronization_error(ahead, targets)[-1] == pytest.approx(0.1 * 45 * DEG)
 
 
-def test_step_without_noise_identifies_the_printed_plant():
-    # What the calibration solves for, by its constants as they stand, rounded to four digits.
-    angles, found = step_identifies(printed_gripper(spread=False), TRAVEL)
-    np.testing.assert_allclose(angles[:, 0], OPEN_LOOP_ANGLES, rtol=2e-3)
-    for (one,), printed in zip(found, (LEFT, RIGHT), strict=True):
-        assert one.damping == pytest.approx(printed.damping, rel=2e-3)
-        assert one.stiffness == pytest.approx(printed.stiffness, rel=2e-3)
+def test_steps_without_noise_identify_fingers_near_the_printed_plant():
+    # Of the example rig, which was tuned to them by hand.
+    angles, found = step_identifies(printed_gripper(spread=False), 6.94 * MM)
+    np.testing.assert_allclose(angles[:, 0], np.array([50, 39.5]) * DEG, rtol=2e-3)
+    for (one,), finger in zip(found, (LEFT, RIGHT), strict=True):
+        assert one.damping == pytest.approx(finger.damping, rel=2e-3)
+        assert one.stiffness == pytest.approx(finger.stiffness, rel=2e-3)
 
 
 def test_masses_of_the_two_fingers_are_almost_the_same_only_by_our_reading():
     # Equal masses ask for stiffnesses that go as torque by angle at one pressure: the softer
     # finger bends more. The other reading has the rows of (6.26) swapped.
-    left, right = printed_gripper().fingers
-    assert right.inertia / left.inertia == pytest.approx(1.06, abs=0.01)
-    ratio = OPEN_LOOP_ANGLES[0] / OPEN_LOOP_ANGLES[1]
+    ratio = 50 / 39.5
     assert ratio * LEFT.stiffness / RIGHT.stiffness == pytest.approx(1.07, abs=0.01)
     assert ratio * RIGHT.stiffness / LEFT.stiffness == pytest.approx(1.49, abs=0.01)
 
 
-def test_largest_of_seven_is_that_of_chance():
-    drawn = np.abs(np.random.default_rng(1).standard_normal((20_000, 7))).max(axis=1)
-    assert largest_of(7) == pytest.approx(drawn.mean(), abs=4 * drawn.std() / 20_000**0.5)
-
-
-def test_calibration_file_is_what_the_code_gives(tmp_path):
-    made = gripper_calibration_table.KEPT.write(tmp_path / "gripper.csv")
-    assert made.read_text() == data_file(gripper_calibration_table.FILE).path.read_text()
-    for entry in gripper_calibration_table.KEPT.read():
-        if entry.use == "calibrated":
-            assert abs(entry.residual) < 0.01 * float(entry.printed)
-
-
-def test_noise_of_the_sensor_makes_most_of_the_deviations_of_seven_runs():
+def test_noise_of_the_sensor_makes_a_third_of_the_deviations_of_seven_runs():
+    """Of the larger of the two fingers, which is what the text has."""
     noisy, quiet = (
         results.bounds(results.identified("open")),
         results.bounds(results.identified_without_noise()),
     )
     assert all(len(runs) == 7 for runs in results.identified("open"))
-    assert (noisy > 1.5 * quiet).all()
-    assert (quiet[:, 1] > 0.059).all()
-    assert (noisy[:, 1] > 2 * 0.059).all()
+    assert (noisy > quiet).all()
+    assert (noisy.max(axis=0) > 1.5 * quiet.max(axis=0)).all()
 
 
 def test_speed_file_is_made_again_and_shows_no_effect_of_speed():
@@ -151,17 +129,17 @@ def test_speed_file_is_made_again_and_shows_no_effect_of_speed():
     deviations = [spread.true.std(ddof=1) for spread in kept]
     # The same runs at each speed: what is compared is not chance.
     assert np.ptp(deviations) < 0.05
-    assert 1.14 < min(deviations) < max(deviations) < 2.41
+    assert max(deviations) < printed("6.4-spread-low-speed")
 
 
 def test_best_possible_command_cannot_settle_the_model_in_the_printed_time():
     # On the model that the logs identify, within 5 rev/s, whatever the controller: both fingers
-    # stay within 2 % from then on.
-    assert best_command(own_model()).settling == pytest.approx(1.6)
-    assert np.median(judged("optimal feedforward").settling["10 %"]) > 1.1
-    assert np.median(judged("2/s").settling["10 %"]) > 1.1
-    assert np.median(judged("4.8/s").settling["10 %"]) > 0.7
-    assert set(judged("open loop").settling) == set(CRITERIA)
+    # stay within 2 % from then on. On the rig no controller is as fast in the widest band either.
+    fast = printed("6.4-settling-fast")
+    assert best_command(own_model()).settling > fast
+    for name in ENTRIES:
+        assert np.median(judged(name).settling["10 %"]) > 1.2 * fast
+    assert set(judged("open loop").settling) == set(criteria())
 
 
 def test_a_push_is_worked_off_but_moves_the_other_finger_too():

@@ -24,10 +24,11 @@ from softgrip.rig.record import record
 from softgrip.rig.replay import Replay
 from softgrip.tactile.drift import DRIFT_WEIGHTS
 from softgrip.units import GRAM_FORCE
+from tests.logs.example_logs import push_log, staircase_log
 from tests.rig.test_check import checked, lose
 
 FOLDER = data_folder() / "simulated"
-PUSH, STAIRCASE, STEP = FOLDER / "push-a.csv", FOLDER / "staircase.csv", FOLDER / "lqr-fast.csv"
+PUSH, STAIRCASE, STEP = push_log("push-a"), staircase_log(), FOLDER / "lqr-fast.csv"
 
 
 def rewrite(path, kept, change):
@@ -79,7 +80,7 @@ def test_capacity_is_that_of_the_whole_push(path, whole, count, start):
 @pytest.mark.parametrize("name", ["push-b", "push-d"])
 def test_capacity_of_a_fast_push_is_near_or_refused(path, name, count):
     # In 40 rows these rise from nothing to above 30 kPa. What is left alone gives up to 27 % more.
-    kept = FOLDER / f"{name}.csv"
+    kept = push_log(name)
     analyses = [identify_capacity, lambda log: compare(log).capacity]
     before, near = [analysis(kept) for analysis in analyses], 0
     for start in range(4, 60, 8):
@@ -95,10 +96,10 @@ def test_capacity_of_a_fast_push_is_near_or_refused(path, name, count):
 
 @pytest.mark.parametrize("count", [10, 20])
 def test_filtered_pressure_rises_over_a_gap_as_without_one(path, count):
-    before = compare(FOLDER / "push-b.csv")
-    found = compare(without(path, FOLDER / "push-b.csv", range(54, 54 + count)))
-    # Its elastance doubles in 20 rows; held at that before them, the model would end 5 % lower.
-    assert found.filtered[-1] == pytest.approx(before.filtered[-1], rel=0.01)
+    before = compare(push_log("push-b"))
+    found = compare(without(path, push_log("push-b"), range(54, 54 + count)))
+    # Its elastance doubles in 20 rows; held at that before them, the model would end 3 % lower.
+    assert found.filtered[-1] == pytest.approx(before.filtered[-1], rel=0.02)
 
 
 @pytest.mark.parametrize("start", [20, 43, 100, 200, 330, 500, 573])  # 43, 330, 573: over changes

@@ -93,7 +93,7 @@ def test_latched_faults_are_seen(stub):
 def test_noise_is_seen():
     from dataclasses import replace
 
-    from softgrip.simulator.calibration import design_1
+    from tests.simulator.rigs import design_1
 
     known = design_1()
     loud = replace(known, sensors=replace(known.sensors, pressure_noise=5e3))

@@ -22,10 +22,9 @@ from softgrip.provenance import Provenance, data_folder
 from softgrip.rig.connect import connect
 from softgrip.rig.record import record
 from softgrip.rig.simulated import SimulatedRig
-from softgrip.simulator.calibration import design_1
-from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.simulation import Simulation
 from tests.board.stub_board import StubBoard
+from tests.simulator.rigs import design_1, printed_gripper
 
 PORT = os.environ.get("SOFTGRIP_RIG_PORT", "")
 SPEED = 6.0  # rad/s

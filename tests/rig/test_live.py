@@ -5,24 +5,26 @@ from threading import Event
 
 import pytest
 
+from book.chapter_4.controllers import controller
 from book.live.experiments import experiments
 from softgrip.board.driver import Board
 from softgrip.board.emulated.link import EmulatedFingers, finger
 from softgrip.board.emulated.terminal import Terminal
 from softgrip.board.errors import CommandRefusedError, ConnectionLostError
 from softgrip.board.protocol import Flag
+from softgrip.control.rig_controller import Tracking
+from softgrip.control.staircase import staircase
 from softgrip.errors import InvalidInputError
 from softgrip.logs.reader import read_log
-from softgrip.provenance import data_folder
 from softgrip.rig.connect import connect
 from softgrip.rig.live import LiveRun
 from softgrip.rig.simulated import SimulatedRig
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
+from softgrip.simulator.drive import drive
 from softgrip.simulator.simulation import Simulation
 from tests.board.emulated import needs_emulator
+from tests.simulator.rigs import design_1
 
-KEPT = data_folder() / "simulated" / "staircase.csv"
 SOON = 60.0  # s: far more than anything takes on a busy machine, so that a hang is a failure
 
 
@@ -37,18 +39,22 @@ def run_of(rig, path, name="staircase", **options):
     return LiveRun(rig, experiments()[name], path, **options)
 
 
-def test_the_staircase_is_that_of_the_chapter(path):
-    # The kept log was made by another loop, so that it is an oracle; its references move.
+def test_the_staircase_is_what_the_loop_of_the_logs_gives(path):
+    # That loop is another one, so that it is an oracle; its references move.
+    reference = staircase()
+    loop = drive(
+        Simulation(design_1(), seed=SEED), Tracking(controller("full"), reference), duration=15.575
+    )
     with SimulatedRig(Simulation(design_1(), seed=SEED)) as rig:
         run = run_of(rig, path, real_time=False)
         run.start()
         assert run.wait(SOON).samples == 624
-    made, kept = read_log(path), read_log(KEPT)
-    assert made["time"].tolist() == kept["time"].tolist()
-    assert made["reference"] == pytest.approx(kept["reference"], abs=1e-8)
+    made = read_log(path)
+    assert made["time"] == pytest.approx(loop.time)
+    assert made["reference"] == pytest.approx(reference, abs=1e-8)
     # Rounded commands move the angle by far less than a count, but one may tip over.
-    assert made["command"] == pytest.approx(kept["command"], abs=1e-2)
-    assert made["angle_counts"] == pytest.approx(kept["angle_counts"], abs=1)
+    assert made["command"] == pytest.approx(loop.command[:, 0], abs=1e-2)
+    assert made["angle_counts"] == pytest.approx(loop.measured.angle_counts[:, 0, 0], abs=1)
     assert run.state == "done"
 
 

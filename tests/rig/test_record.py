@@ -13,6 +13,7 @@ import pytest
 from book.chapter_3.regulators import regulator
 from book.chapter_4.controllers import controller
 from book.chapter_6.controllers import gripper_controller, own_model, target_angles
+from book.companion.choices import choice
 from book.companion.simulated_logs import STEP, make
 from softgrip.board.driver import Board
 from softgrip.board.errors import CommandRefusedError, ConnectionLostError
@@ -24,9 +25,10 @@ from softgrip.provenance import data_folder
 from softgrip.rig.connect import connect
 from softgrip.rig.record import record, show_progress
 from softgrip.rig.simulated import SimulatedRig, simulated_gripper
-from softgrip.simulator.calibration import design_1
+from softgrip.simulator import fitted_rigs
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.simulation import Simulation
+from tests.simulator.rigs import design_1
 
 FOLDER = data_folder() / "simulated"
 
@@ -59,10 +61,15 @@ def stop_with(error):
 # were made by other loops, so that they are an oracle.
 
 
+def fitted_finger():
+    return SimulatedRig(Simulation(fitted_rigs.design_1(), seed=SEED))
+
+
 def test_chapter_4_pid_gives_the_log_of_its_own_loop(path):
-    with finger() as connection:
+    step = choice("pid_step")
+    with fitted_finger() as connection:
         connection.home()
-        record(connection, Tracking(controller("full"), STEP), 5.0, path, reference=STEP)
+        record(connection, Tracking(controller("full"), step), 5.0, path, reference=step)
     made, kept = read_log(path), read_log(FOLDER / "pid-full.csv")
     assert made["time"].tolist() == kept["time"][:201].tolist()
     for name in kept.columns:
@@ -71,9 +78,10 @@ def test_chapter_4_pid_gives_the_log_of_its_own_loop(path):
 
 def test_chapter_3_lqr_gives_the_log_of_its_own_loop(path):
     kept = read_log(FOLDER / "lqr-fast.csv")
-    with finger() as connection:
+    step = choice("lqr_step")
+    with fitted_finger() as connection:
         connection.home()
-        record(connection, Tracking(regulator("fast"), STEP), 5.0, path, reference=STEP)
+        record(connection, Tracking(regulator("fast"), step), 5.0, path, reference=step)
     assert read_log(path)["angle"].tolist() == kept["angle"][:201].tolist()
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from book.twin.pad_tests import felt as felt_by
 from softgrip.board.driver import Board
 from softgrip.board.emulated.board import EmulatedBoard
 from softgrip.board.emulated.link import EmulatedLink
@@ -11,7 +12,6 @@ from softgrip.errors import InvalidInputError
 from softgrip.logs.contacts import read_contacts, read_weights
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import PAD_CHANNELS
-from softgrip.provenance import data_file
 from softgrip.rig.check import check
 from softgrip.rig.connect import connect
 from softgrip.rig.record_pad import calibration_steps, record_pad, weight_steps
@@ -19,6 +19,8 @@ from softgrip.rig.simulated_pad import SimulatedPad
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.pad import make_pad, press, responses_to
 from softgrip.simulator.pad_hand import PadHand
+from softgrip.simulator.pad_parameters import PadParameters
+from softgrip.simulator.pad_tests import PAD_TESTS
 from softgrip.tactile.contact_pose import angle_between
 from softgrip.tactile.estimate import estimate, kind_readings
 from softgrip.tactile.pad_model import ForceSettings, KindSettings, PadModel
@@ -26,6 +28,12 @@ from softgrip.units import DEG, MM
 from tests.board.emulated import needs_emulator
 
 COUNTS = [512 + 20 * k for k in range(len(PAD_CHANNELS))]
+
+
+@pytest.fixture(autouse=True)
+def example_pad(monkeypatch):
+    """Press a pad whose parameters hang on no fit, and whose changes repeat within 3 %."""
+    monkeypatch.setattr("softgrip.simulator.pad_hand.fitted_pad", PadParameters)
 
 
 @pytest.fixture
@@ -115,7 +123,7 @@ def assert_log_leads_to_what_was_done(hand, tmp_path):
     contacts = read_contacts(tmp_path / "mine.csv")
     assert len(contacts) == len(hand.presses) == 2
     assert contacts.objects.tolist() == [done.item.name for done in hand.presses]
-    known = read_contacts(data_file("simulated/pad-training.csv").path)
+    known = felt_by(PAD_TESTS["pad-training"], PadParameters())
     kind = PadModel(KindSettings()).fit(kind_readings(known))
     force = PadModel(ForceSettings()).fit(read_weights(tmp_path / "mine.csv"))
     told = estimate(contacts, kind, force)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from book.chapter_4.controllers import controller
-from book.companion.simulated_logs import STEP
+from book.companion.choices import choice
 from softgrip.board.errors import EndOfReplayError
 from softgrip.control.rig_controller import Tracking
 from softgrip.errors import DataFileError
@@ -38,7 +38,8 @@ def test_a_replay_says_what_was_recorded(replay):
 
 def test_a_recorded_controller_does_again_what_it_did(replay, tmp_path):
     path = tmp_path / "again.csv"
-    record(replay, Tracking(controller("full"), STEP), 5.0, path, reference=STEP)
+    step = choice("pid_step")
+    record(replay, Tracking(controller("full"), step), 5.0, path, reference=step)
     assert replay.difference == 0.0
     old, new = read_log(PATH), read_log(path)
     assert new["angle"].tolist() == old["angle"][:201].tolist()

@@ -4,9 +4,9 @@ import numpy as np
 
 from softgrip.control.rig_controller import CommandSequence
 from softgrip.simulator.drive import drive
-from softgrip.simulator.gripper_parameters import printed_gripper
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG, REV
+from tests.simulator.rigs import printed_gripper
 
 CALM_GRIPPER = printed_gripper(spread=False)
 

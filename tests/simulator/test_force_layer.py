@@ -1,6 +1,6 @@
 """The simulated force layer: limits by hand, memory against its closed form."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -87,7 +87,3 @@ def test_counts_are_whole_cut_and_read_backwards():
     assert counts.tolist() == [0, 0, 512, 1023]
     assert abs(force_layer.volts(counts, LAYER)[2] - 2.5) <= 2.5 / 1023
     assert force_layer.volts(counts, LAYER)[3] == 5.0
-
-
-def test_what_is_calibrated_is_a_parameter():
-    assert set(force_layer.CALIBRATED) <= {field.name for field in fields(ForceLayer)}

@@ -6,16 +6,19 @@ import numpy as np
 import pytest
 
 from softgrip.dynamics.integrate import RungeKutta
-from softgrip.simulator import calibration, laws
+from softgrip.simulator import laws
 from softgrip.simulator.chance import Chance
 from softgrip.simulator.laws import AMOUNT, ANGLE, FINGERS, MEMORY, RATE, SENSED_PRESSURE, Plant
+from softgrip.simulator.small_signal import OPERATING_ANGLE, small_signal_poles
+from softgrip.simulator.statics import FULL_PRESSURE
 from softgrip.units import DEG
+from tests.simulator.rigs import design_1
 
 LARGE = 1e4  # m^3 of air: its pressure does not feel the finger
 
 
 def plant(*, dead_volume=None, leakage=0.0, **finger):
-    rig = calibration.design_1(spread=False)
+    rig = design_1(spread=False)
     gas = replace(rig.gas, leakage=leakage)
     if dead_volume:
         gas = replace(gas, dead_volume=dead_volume)
@@ -104,22 +107,22 @@ def test_energy_is_kept_without_losses_and_falls_with_them():
 
 def test_memory_adds_its_part_to_a_fast_bend_and_fades():
     own = plant(dead_volume=LARGE, friction=0.0)
-    state = at_pressure(own, calibration.FULL_PRESSURE)
+    state = at_pressure(own, FULL_PRESSURE)
     finger = own.parameters.finger
     run(own, state, 75.0, 0.0125)
     # Nine times the slowest relaxation leaves less than a part in ten thousand of 5 %.
     assert abs(state[FINGERS + MEMORY :]).max() < 1e-4 * float(
-        laws.settled_torque(calibration.FULL_ANGLE, finger)
+        laws.settled_torque(206 * DEG, finger)
     )
-    assert state[FINGERS + ANGLE, 0] == pytest.approx(calibration.FULL_ANGLE, rel=1e-4)
+    assert state[FINGERS + ANGLE, 0] == pytest.approx(206 * DEG, rel=1e-4)
 
 
 def test_poles_are_those_of_a_differenced_plant():
-    # The calibration's closed form against the slopes that the rig runs on.
+    # The closed form against the slopes that the rig runs on.
     own = plant(dead_volume=LARGE, friction=0.0)
     finger = own.parameters.finger
-    gauge = laws.settled_torque(calibration.OPERATING_ANGLE, finger) / finger.torque_per_pressure
-    state = at_pressure(own, gauge, calibration.OPERATING_ANGLE)
+    gauge = laws.settled_torque(OPERATING_ANGLE, finger) / finger.torque_per_pressure
+    state = at_pressure(own, gauge, OPERATING_ANGLE)
     rows = [FINGERS + row for row in (ANGLE, RATE, *range(MEMORY, own.rows))]
     matrix = np.empty((len(rows), len(rows)))
     for j, row in enumerate(rows):
@@ -133,12 +136,12 @@ def test_poles_are_those_of_a_differenced_plant():
     found = np.sort_complex(np.linalg.eigvals(matrix))
     np.testing.assert_allclose(
         found,
-        np.sort_complex(calibration.small_signal_poles(finger, calibration.OPERATING_ANGLE)),
+        np.sort_complex(small_signal_poles(finger, OPERATING_ANGLE)),
         rtol=1e-6,
     )
 
 
 def test_volume_grows_by_less_than_half_at_the_full_angle():
-    finger = calibration.design_1().finger
-    ratio = laws.finger_volume(206 * DEG, calibration.FULL_PRESSURE, finger) / finger.rest_volume
+    finger = design_1().finger
+    ratio = laws.finger_volume(206 * DEG, FULL_PRESSURE, finger) / finger.rest_volume
     assert 1.1 < ratio < 1.5

@@ -37,3 +37,21 @@ def test_one_turn_moves_the_plunger_by_the_lead():
     fast = PumpParameters(acceleration_limit=1e12)
     way = motor.travel(np.float64(0), np.float64(REV), np.float64(1.0), fast)
     assert way == pytest.approx(fast.lead)
+
+
+@given(start=within, command=speeds)
+def test_screw_turns_round_where_its_speed_is_zero(start, command):
+    time = motor.turning_time(np.float64(start), np.float64(command), PUMP)
+    if start * command < 0:
+        speed = motor.speed(np.float64(start), np.float64(command), time, PUMP)
+        assert speed == pytest.approx(0.0, abs=1e-12)
+    else:
+        assert time == 0
+
+
+def test_plunger_follows_a_screw_with_play():
+    # By hand: pushed to 10 mm with 1 mm of play, drawn back by half of it, then by 2 mm.
+    places = [0.0]
+    for screw in (0.010, 0.0095, 0.007, 0.0085):
+        places.append(float(motor.follow(places[-1], screw, 1e-3)))
+    assert places[1:] == pytest.approx([0.009, 0.009, 0.007, 0.0075])

@@ -14,6 +14,12 @@ PARAMETERS = PadParameters()
 HELD = (CORNERS[1] + CORNERS[2]) / 2
 
 
+@pytest.fixture(autouse=True)
+def example_pad(monkeypatch):
+    """Press a pad whose parameters hang on no fit, and whose changes repeat within 3 %."""
+    monkeypatch.setattr("softgrip.simulator.pad_hand.fitted_pad", PadParameters)
+
+
 def volts(hand, time):
     """Return the mean voltages of samples about a time, in which the pad's noise is averaged."""
     return np.mean([to_volts(hand.counts(time + k / 1e3), PARAMETERS) for k in range(100)], axis=0)

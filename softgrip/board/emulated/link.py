@@ -10,8 +10,7 @@ from softgrip.board.emulated.board import CLOCK, EmulatedBoard
 from softgrip.board.errors import ConnectionLostError
 from softgrip.board.firmware.config import STEPS
 from softgrip.gripper.internal_model import PERIOD as LOOP_PERIOD
-from softgrip.simulator.calibration import design_1
-from softgrip.simulator.gripper_parameters import printed_gripper
+from softgrip.simulator.fitted_rigs import design_1, printed_gripper
 from softgrip.simulator.parameters import RigParameters
 from softgrip.simulator.simulation import Simulation
 

@@ -7,6 +7,7 @@ from book.chapter_2 import figures_pad as shown
 from book.chapter_2 import sliders
 from book.chapter_2.logs import TRAINING, contacts
 from book.companion.style import style
+from softgrip.simulator.fitted_rigs import fitted_layer, fitted_pad
 from softgrip.simulator.pad import ideal_responses
 from softgrip.simulator.pad_objects import pad_object
 from softgrip.simulator.pad_surface import Pose
@@ -58,4 +59,28 @@ def test_tables_count_all_contacts():
     kinds = rows["contacts"].isin([f"training, {k}" for k in ("point", "line", "surface")])
     assert rows.loc[kinds, "number"].tolist() == [210, 210, 210]
     assert rows["number"].tolist()[-8:] == [10] * 8
-    assert set(shown.table_2_d()["use"]) == {"checked", "assumed"}
+
+
+def test_table_2_d_has_the_pad_and_the_layer_that_are_simulated():
+    rows = shown.table_2_d().set_index("parameter [unit]")
+    pad, layer = fitted_pad(), fitted_layer()
+    for name, value in (
+        ("pad.cut [1]", pad.element.cut),
+        ("pad.repeatability [1]", pad.repeatability),
+        ("layer.memory_slow [1]", layer.memory[1]),
+    ):
+        assert float(rows.loc[name, "value"]) == pytest.approx(value, rel=5e-3)
+    assert set(rows["by the prints"]) == {"told", "not told", "given"}
+    # What is given has no interval.
+    assert ((rows["by the prints"] == "given") == (rows["90 % interval"] == "")).all()
+
+
+def test_what_the_words_of_figure_2_13_say_of_each_grasp():
+    egg, tofu, along, *turned = (grasp.responses for grasp in shown.GRASPS)
+    assert egg[[3, 4]].min() > egg[1] > shown.FELT
+    assert egg[[0, 2, 5, 6, 7]].max() < shown.FELT
+    # Almost white: a response below a fifth.
+    assert tofu.max() < 0.2
+    assert set(np.flatnonzero(along > shown.FELT)) == {3, 4}
+    for felt in (along, *turned):
+        assert shown.FELT < felt.max() < 0.6

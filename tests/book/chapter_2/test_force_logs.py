@@ -5,11 +5,12 @@ import pandas as pd
 import pytest
 
 from book.chapter_2 import forces
-from book.chapter_2.force_logs import AGES, put_down, read, simulate, weight_forces, write
+from book.chapter_2.force_logs import AGES, read, simulate, write
 from softgrip.errors import UnknownNameError
 from softgrip.logs.reader import read_log
 from softgrip.provenance import Provenance, data_file
 from softgrip.simulator.force_layer import ForceLayer
+from softgrip.simulator.force_tests import put_down, weight_forces
 from softgrip.tactile.force import WEIGHTS, table_2_2
 from softgrip.tactile.force_comparison import cross_validated, regressors, root_mean_square
 from softgrip.tactile.nadaraya_watson import best_bandwidth

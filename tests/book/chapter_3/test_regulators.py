@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from book.chapter_3 import regulators as lqr_gains
+from book.chapter_3.figures_control import PRINTED_TIME, step_size
 from book.chapter_4.identified_model import identified_model
-from book.companion.simulated_logs import STEP
+from book.companion.choices import choice
+from book.companion.twin_reach import reaches
 from softgrip.control.differentiator import RobustDifferentiator
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import Weights, input_gain, lqr_gain
@@ -14,21 +16,25 @@ from softgrip.control.rig_controller import Tracking
 from softgrip.control.state_feedback import StateFeedback
 from softgrip.dynamics.second_order import full_state_space
 from softgrip.errors import UnknownNameError
+from softgrip.logs.reader import read_log
 from softgrip.logs.steps import judge_step, judge_step_log
 from softgrip.provenance import data_file
-from softgrip.simulator.calibration import design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
+from softgrip.simulator.fitted_rigs import design_1
 from softgrip.simulator.simulation import Simulation
 from softgrip.units import DEG
+
+STEP = step_size()
 
 
 def batch(regulator, runs):
     rig = Simulation(design_1(), runs=runs, seed=SEED)
     made = drive(rig, Tracking(regulator, STEP), duration=20.0)
+    band = choice("lqr_band")
     return (
-        judge_step(made.time, made.measured.angle[:, 0].T, STEP),
-        judge_step(made.time, made.truth.angle[:, 0].T, STEP, window=0),
+        judge_step(made.time, made.measured.angle[:, 0].T, STEP, band=band),
+        judge_step(made.time, made.truth.angle[:, 0].T, STEP, window=0, band=band),
     )
 
 
@@ -57,54 +63,68 @@ def test_unknown_design_is_refused():
         lqr_gains.regulator("slow")
 
 
-def test_printed_weights_take_three_times_the_printed_time():
-    told, true = batch(lqr_gains.regulator("printed"), 100)
-    # Medians 2.7 s within 5 deg and 4.2 s within 5 %; printed is 0.8 s.
-    assert np.min(true.settled_5_deg) > 2.0
-    assert middle(told.settled_5_deg) == pytest.approx(2.66, abs=0.1)
-    assert middle(true.settled_5_percent) == pytest.approx(4.2, abs=0.5)
-    # On average no error is left, in a run about a degree is: friction, and slow swinging.
+@pytest.fixture(scope="module")
+def batches():
+    return {name: batch(lqr_gains.regulator(name), 40) for name in ("printed", "fast")}
+
+
+def test_printed_weights_take_more_than_twice_the_printed_time(batches):
+    told, true = batches["printed"]
+    assert np.min(true.settled) > 2 * PRINTED_TIME
+    # The averaged measurement lags behind the truth by the sensor, and averages over its window.
+    assert middle(told.settled) == pytest.approx(middle(true.settled), abs=0.5)
+    # On average no error is left, in a run about a degree may be: friction, and slow swinging.
     assert abs(np.mean(told.steady_state_error)) < 0.4 * DEG
-    assert np.std(told.steady_state_error) == pytest.approx(1.2 * DEG, abs=0.3 * DEG)
+    assert np.std(told.steady_state_error) < 1.5 * DEG
 
 
-def test_fast_design_is_near_what_any_controller_can_do_on_the_model():
-    told, true = batch(lqr_gains.regulator("fast"), 100)
+def test_no_rig_that_fits_the_other_prints_settles_as_soon_as_printed():
+    assert reaches()["3.4-lqr-settling-measured"].word != "together"
+
+
+def test_faster_design_takes_well_less_time_and_not_less_than_any_controller_on_the_model(batches):
+    told, true = batches["fast"]
     model = identified_model()
     bound = minimum_settling_time(
-        full_state_space(model.finger, model.pump_gain), STEP, SPEED_LIMIT, band=5 * DEG
+        full_state_space(model.finger, model.pump_gain), STEP, SPEED_LIMIT, band=choice("lqr_band")
     )
-    # The model is not the rig, so a single run might beat the bound; the median is 0.2 s above.
-    assert bound == pytest.approx(1.075, abs=0.026)
-    assert middle(true.settled_5_deg) == pytest.approx(1.24, abs=0.05)
-    assert middle(told.settled_5_deg) == pytest.approx(1.33, abs=0.05)
-    assert np.min(true.settled_5_deg) > 0.8
+    # The model is not the rig, so a single run might beat the bound.
+    assert bound < middle(true.settled) < 0.7 * middle(batches["printed"][1].settled)
     assert np.abs(told.steady_state_error).max() < DEG
 
 
-def test_logs_say_the_same_as_the_batch():
-    for name, time in (("printed", 2.62), ("fast", 1.30)):
-        found = judge_step_log(data_file(f"simulated/lqr-{name}.csv").path)
-        assert float(found.settled_5_deg) == pytest.approx(time, abs=0.03)
+def test_logs_lie_among_the_batch(batches):
+    for name, (told, _) in batches.items():
+        path = data_file(f"simulated/lqr-{name}.csv").path
+        found = judge_step_log(path, band=choice("lqr_band"))
+        assert told.settled.min() <= float(found.settled) <= told.settled.max()
         assert abs(float(found.steady_state_error)) < 2 * DEG
+
+
+def test_command_of_the_faster_design_is_full_at_first_and_then_turns_back():
+    log = read_log(data_file("simulated/lqr-fast.csv").path)
+    share = log["command"] / SPEED_LIMIT
+    assert share[:8].max() == pytest.approx(1)
+    assert share.min() < -0.2
 
 
 def test_the_differentiator_makes_the_fast_design_swing():
     model = identified_model()
     finger, weights = lqr_gains.designed_on("fast", model)
     scale = input_gain(finger, model.pump_gain, SPEED_LIMIT)
-    for jerk in (lqr_gains.JERK, scale):
+    for jerk in (choice("lqr_jerk"), scale):
         regulator = StateFeedback(lqr_gain(finger, weights), scale, RobustDifferentiator(jerk))
         _, true = batch(regulator, 7)
-        assert np.isinf(true.settled_5_deg).all()
+        assert np.isinf(true.settled).all()
         assert np.median(true.swing) > 5 * DEG
 
 
-def test_choice_of_the_jerk_decides_little_on_the_rig():
+def test_choice_of_the_jerk_moves_the_time_by_more_than_the_printed_one():
     model = identified_model()
     finger, weights = lqr_gains.designed_on("printed", model)
     scale = input_gain(finger, model.pump_gain, SPEED_LIMIT)
-    for jerk in (2.0, 5.0, 20.0):
+    times = []
+    for jerk in (1.5, 5.0):
         regulator = StateFeedback(lqr_gain(finger, weights), scale, RobustDifferentiator(jerk))
-        _, true = batch(regulator, 40)
-        assert 2.4 < middle(true.settled_5_deg) < 3.5
+        times.append(middle(batch(regulator, 7)[1].settled))
+    assert np.ptp(times) > PRINTED_TIME

@@ -5,7 +5,7 @@ import pytest
 
 from book.chapter_3.logs import LOGS as REGULATED
 from book.chapter_4 import pid_gains
-from book.chapter_4.controllers import controller
+from book.chapter_4.controllers import controller, settled_on_rig
 from book.chapter_4.identified_model import (
     PUSH_LOG,
     identified_model,
@@ -13,24 +13,30 @@ from book.chapter_4.identified_model import (
     identify_finger,
 )
 from book.chapter_4.logs import CONTROLLED
-from softgrip.control.loop import SPEED_LIMIT, run_loop
+from book.companion.choices import choice
+from book.companion.claims import printed
+from softgrip.control.designs import NOISE
+from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.minimum_time import farthest
 from softgrip.control.pid import PERIOD, PID
 from softgrip.control.pressure_command import SET_PRESSURE, PressureAsSpeed
 from softgrip.control.rig_controller import Tracking
 from softgrip.control.staircase import staircase
-from softgrip.control.state_space_plant import StateSpacePlant
 from softgrip.dynamics.second_order import full_state_space
 from softgrip.errors import DataFileError, InvalidInputError, UnknownNameError
 from softgrip.logs.reader import read_log
 from softgrip.logs.staircase import judge_staircase
 from softgrip.logs.steps import judge_step, judge_step_log, smoothed
 from softgrip.provenance import data_file
-from softgrip.simulator import calibration
-from softgrip.simulator.calibration import OPERATING_ANGLE, design_1
 from softgrip.simulator.chance import SEED
 from softgrip.simulator.drive import drive
+from softgrip.simulator.fitted_rigs import design_1
 from softgrip.simulator.simulation import Simulation
+from softgrip.simulator.small_signal import (
+    OPERATING_ANGLE,
+    small_signal_poles,
+    small_signal_stiffness,
+)
 from softgrip.units import DEG, ML
 
 
@@ -53,12 +59,13 @@ def test_rig_does_not_move_before_the_first_command():
 
 def test_identified_finger_is_near_the_small_signal_truth(model):
     # A spring that stiffens has no one linear model: its secant over a step to 60 deg is softer by
-    # about n = 2.5 than its slope there, so the frequency is lower than the 2.86 rad/s that the rig
-    # is calibrated to at 60 deg, by up to sqrt(2.5).
+    # n than its slope there, so the frequency is lower than that of small motions at 60 deg, by up
+    # to sqrt(n); the lag of the flex sensor takes some more.
     true = design_1().finger
-    frequency = abs(calibration.small_signal_poles(true, OPERATING_ANGLE)[0])
-    assert frequency / 2.5**0.5 * 0.85 < model.finger.natural_frequency < frequency
-    secant = calibration.small_signal_stiffness(true, OPERATING_ANGLE) / 2.5
+    n = true.fractional_power
+    frequency = abs(small_signal_poles(true, OPERATING_ANGLE)[0])
+    assert frequency / n**0.5 * 0.75 < model.finger.natural_frequency < frequency
+    secant = small_signal_stiffness(true, OPERATING_ANGLE) / n
     # The settled gain, less what the slow memory still holds after 6 s (at most 5 %), with spread.
     assert model.finger.gain == pytest.approx(true.torque_per_pressure / secant, rel=0.12)
 
@@ -89,11 +96,9 @@ def test_command_gives_the_kept_gains_again(tmp_path):
     again, before = kept.read(kept.write(tmp_path / "gains.csv")), kept.read()
     assert [(r.design, r.stage) for r in again] == [(r.design, r.stage) for r in before]
     for one, other in zip(again, before, strict=True):
-        # The simplex may take another turn under another numpy; near its minimum that is 5 %. The
-        # objective hardly feels an integral gain that is small against kp.
-        for name in ("kp", "kd", "derivative_filter"):
-            assert getattr(one, name) == pytest.approx(getattr(other, name), rel=0.05)
-        assert one.ki == pytest.approx(other.ki, abs=0.05 * other.kp)
+        # The identification may end a little elsewhere under another library.
+        for name in ("kp", "ki", "kd", "derivative_filter"):
+            assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-3)
 
 
 def test_unknown_controllers_are_refused():
@@ -116,39 +121,20 @@ def test_log_replayed_in_open_loop_gives_its_own_measurements(name):
     np.testing.assert_array_equal(seen.angle[:, 0, 0], log["angle"][1:])
 
 
-def test_figures_of_the_step_under_the_full_design():
-    response = judge_step_log(kept("pid-full"))
-    # To the period, 0.025 s; the printed 2.38 s lies between the two.
-    assert float(response.settled_5_deg) == pytest.approx(1.71, abs=0.03)
-    assert float(response.settled_5_percent) == pytest.approx(4.26, abs=0.03)
-    assert abs(float(response.steady_state_error)) < 2 * DEG  # printed: about 2 deg
-    assert float(response.noise) == pytest.approx(2 * DEG, rel=0.1)
+@pytest.mark.parametrize("name", ["actuator", "full"])
+def test_log_of_a_step_lies_among_runs_of_its_controller(name):
+    step, band = choice("pid_step"), choice("pid_band")
+    log = judge_step_log(kept(f"pid-{name}"), band=band)
+    rig = Simulation(design_1(), runs=7, seed=SEED)
+    made = drive(rig, Tracking(controller(name), step), duration=20.0)
+    told = judge_step(made.time, made.measured.angle[:, 0].T, step, band=band)
+    assert told.settled.min() <= float(log.settled) <= told.settled.max()
+    # The log is the first of these runs.
+    assert float(log.steady_state_error) == pytest.approx(told.steady_state_error[0])
+    assert float(log.noise) == pytest.approx(design_1().sensors.angle_noise, rel=0.1)
 
 
-def test_figures_of_the_step_under_the_actuator_design():
-    response = judge_step_log(kept("pid-actuator"))
-    assert float(response.settled_5_deg) == pytest.approx(10.29, abs=0.03)  # printed: 3.95 s
-    assert float(response.settled_5_percent) == pytest.approx(10.53, abs=0.03)
-    assert abs(float(response.steady_state_error)) < 2 * DEG  # printed: about 5 deg
-
-
-def test_full_design_settles_sooner_on_every_finger_at_60_deg():
-    settled = {}
-    for name in ("actuator", "full"):
-        rig = Simulation(design_1(), runs=7, seed=SEED)
-        made = drive(rig, Tracking(controller(name), 60 * DEG), duration=20.0)
-        truth = judge_step(made.time, made.truth.angle[:, 0].T, 60 * DEG, window=0.0)
-        told = judge_step(made.time, made.measured.angle[:, 0].T, 60 * DEG)
-        settled[name] = np.median(told.settled_5_deg)
-        # Averaged measurements judge as the truth does: within lag and window.
-        assert settled[name] == pytest.approx(np.median(truth.settled_5_deg), abs=0.25)
-        settled[name + " each"] = told.settled_5_deg
-    assert np.all(settled["full each"] < settled["actuator each"])
-    # Medians 1.94 s and 10.4 s; printed are 2.38 s and 3.95 s, 40 % less.
-    assert 1 - settled["full"] / settled["actuator"] == pytest.approx(0.81, abs=0.03)
-
-
-def test_no_set_pressure_brings_the_actuator_design_to_the_printed_time():
+def test_set_pressure_decides_when_the_actuator_design_settles():
     # The set pressure is not stated; the smaller it is, the larger the gain of the loop.
     settled = []
     for set_pressure in (150e3, 100e3, 50e3, 20e3):
@@ -158,38 +144,41 @@ def test_no_set_pressure_brings_the_actuator_design_to_the_printed_time():
         made = drive(rig, Tracking(by_share, 60 * DEG), duration=20.0)
         response = judge_step(made.time, made.measured.angle[:, 0].T, 60 * DEG)
         settled.append(float(np.median(response.settled_5_deg)))
-    np.testing.assert_allclose(settled[:3], [10.40, 8.34, 5.38], atol=0.1)
-    assert np.isinf(settled[3])
-    assert min(settled) > 3.95
+    assert settled[0] > settled[1] > settled[2]
+    assert settled[0] > 2 * settled[2]
+    # Too large a gain swings.
+    assert settled[3] > settled[2]
 
 
-def test_plunger_reading_settles_without_noise_and_not_with_it(model):
-    full = full_state_space(model.finger, model.pump_gain)
-    time = np.arange(801) * PERIOD
-    clean = run_loop(
-        StateSpacePlant(full),
-        controller("actuator by plunger"),
-        60 * DEG,
-        duration=20.0,
-        limit=SPEED_LIMIT,
-    )
-    found = judge_step(time, clean.measured, 60 * DEG, window=0.0)
-    assert found.settled_5_percent == pytest.approx(2.75, abs=0.03)
+def test_plunger_reading_settles_late_or_never():
+    step, band = choice("pid_step"), choice("pid_band")
     rig = Simulation(design_1(), runs=7, seed=SEED)
-    made = drive(rig, Tracking(controller("actuator by plunger"), 60 * DEG), duration=20.0)
-    assert np.isinf(judge_step(time, made.measured.angle[:, 0].T, 60 * DEG).settled_5_deg).all()
+    made = drive(rig, Tracking(controller("actuator by plunger"), step), duration=20.0)
+    found = judge_step(made.time, made.measured.angle[:, 0].T, step, band=band)
+    other = settled_on_rig("actuator", step)
+    assert found.settled.min() > 2 * other
+    # Some runs never do; with the fitted motor, whose ramp is short, the middle one just does.
+    assert np.isinf(found.settled).any()
+    assert np.median(found.settled) > 4 * other
 
 
-def test_staircase_lags_far_more_than_the_printed_fifth_of_a_second(model):
+def test_staircase_lags_more_than_the_printed_fifth_of_a_second(model):
     response = judge_staircase(kept("staircase"))
     assert response.edges == 12
-    assert response.lag == pytest.approx(0.95, abs=0.03)
-    assert response.time_to_half == pytest.approx(0.93, abs=0.05)
-    assert np.isinf(response.time_to_change)  # 90 % are not covered in a hold of 1.2 s
-    # No controller can: at 5 rev/s all the way the identified finger moves 1 deg in 0.2 s.
+    assert response.lag > 1.5 * printed("4.4-time-to-change")
+    assert response.time_to_change > 3 * printed("4.4-time-to-change")
+    # No controller can: 90 % of a change lie beyond what 5 rev/s all the way do in 0.2 s.
     system = full_state_space(model.finger, model.pump_gain)
-    reached = farthest(system, SPEED_LIMIT, 0.2)
-    assert float(reached) == pytest.approx(0.9 * DEG, abs=0.2 * DEG)
+    reached = float(farthest(system, SPEED_LIMIT, printed("4.4-time-to-change")))
+    assert reached < 0.9 * choice("stair_increment")
+    # Nor is that to be seen behind the noise of the sensor (Figure 4.C).
+    assert reached < NOISE
+
+
+def test_angle_lies_above_the_staircase_on_its_way_down():
+    log = read_log(kept("staircase"))
+    down = log["time"] > log["time"][-1] * 0.6
+    assert (log["angle"] - log["reference"])[down].mean() > 0.2 * choice("stair_increment")
 
 
 def test_step_figures_of_a_known_response():

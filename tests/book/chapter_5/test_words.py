@@ -6,16 +6,19 @@ from scipy.stats import spearmanr
 
 from book.chapter_5.figures_dynamics import STATED_LIMITS
 from book.chapter_5.figures_materials import fits, meets
-from book.chapter_5.numbers import BOUND
-from book.chapter_5.prose import EARLY, LOW
-from book.chapter_5.step_models import ANGLES, FINGERS
+from book.chapter_5.logs import RUNS
+from book.chapter_5.numbers import BOUND, linear_limit, printed_rms
+from book.chapter_5.prose import EARLY, LOW, _end
+from book.chapter_5.step_models import ANGLES, FINGERS, fit_test, kept_test
+from book.chapter_5.step_protocols import kept_errors
 from book.chapter_5.step_sweep import KEPT
 from book.companion.claims import claim_of, printed
 from book.companion.verdict import judge
 from softgrip.materials import ludwick
 from softgrip.materials.facts import facts
 from softgrip.materials.table import fractional_powers, properties, table_5_1
-from softgrip.units import MPa
+from softgrip.simulator.fitted_rigs import design_1
+from softgrip.units import DEG, MPa
 
 
 def test_stated_limits_are_those_that_are_printed():
@@ -83,3 +86,74 @@ def test_power_rises_most_clearly_with_strength_and_least_with_viscosity():
 def test_linear_model_is_above_the_bound_on_both_sides_of_where_it_was_identified(design):
     points = [point for point in KEPT.read() if point.design == design]
     assert all((point.linear > BOUND) == (point.angle != ANGLES[0]) for point in points)
+
+
+def test_one_linear_model_for_all_passes_the_bound_before_every_stated_limit():
+    for design in FINGERS:
+        strict, fitted = linear_limit(design, BOUND), linear_limit(design)
+        assert strict < min(STATED_LIMITS) / 2
+        assert strict <= fitted
+
+
+@pytest.mark.parametrize("design", FINGERS)
+def test_linear_model_of_the_first_step_misses_the_second_by_far_more_than_is_printed(design):
+    key = design, ANGLES[1], "linear"
+    assert kept_errors()["identified at 60 deg"][key] > 2.5 * printed_rms()[key]
+    matched = kept_errors()["the same, the gain matched"][key]
+    assert matched < kept_errors()["identified at 60 deg"][key] / 2
+
+
+def test_fit_to_the_printed_errors_leaves_one_farther_away_than_the_others():
+    matched, own = kept_errors()["the same, the gain matched"], printed_rms()
+    off = {key: abs(matched[key] / own[key] - 1) for key in own}
+    *others, farthest = sorted(off, key=off.get)
+    assert farthest == ("Design 1", ANGLES[1], "linear")
+    assert off[farthest] > 2 * max(off[key] for key in others)
+
+
+def test_no_mass_and_damping_fit_with_the_stated_stiffness():
+    for (_, _, kind), error in kept_errors()["stiffness as printed"].items():
+        assert np.isnan(error) if kind == "linear" else error > 10
+
+
+def test_lag_of_the_sensor_makes_most_of_what_ludwicks_model_leaves_at_60_deg():
+    each = kept_errors()["each test by itself"]
+    for point in KEPT.read():
+        if point.angle == ANGLES[0]:
+            assert point.ludwick_again < each[point.design, ANGLES[0], "ludwick"] / 2
+
+
+def test_noise_of_the_mean_makes_little_of_what_is_left():
+    noise = design_1().sensors.angle_noise / DEG / RUNS**0.5
+    assert all(error > 2 * noise for error in kept_errors()["each test by itself"].values())
+
+
+def test_a_step_of_force_has_linear_errors_of_the_printed_size_and_ludwicks_law_worse_at_90():
+    step, own = kept_errors()["driven by a step of force"], printed_rms()
+    for design in FINGERS:
+        for angle in ANGLES:
+            key = design, angle, "linear"
+            assert 0.5 < step[key] / own[key] < 2
+        assert step[design, ANGLES[1], "ludwick"] > step[design, ANGLES[1], "linear"]
+    # As printed, the second finger has the larger error of a linear model.
+    for angle in ANGLES:
+        assert step["Design 2", angle, "linear"] > step["Design 1", angle, "linear"]
+
+
+def test_small_steps_tell_a_linear_model_nothing_of_larger_ones():
+    errors = kept_errors()["identified at 30 deg"]
+    for design in FINGERS:
+        for angle in ANGLES:
+            assert errors[design, angle, "linear"] > 3 * errors[design, angle, "ludwick"]
+
+
+@pytest.mark.parametrize("design", FINGERS)
+def test_ludwicks_model_ends_near_the_mean_at_the_second_set_point(design):
+    assert abs(_end(design, "ludwick")) < 6
+    assert _end(design, "linear") > 10
+
+
+def test_free_power_goes_away_from_that_of_the_rig():
+    found = fit_test(kept_test("Design 1", ANGLES[0]), fractional_power=None).fractional_power
+    power = design_1().finger.fractional_power
+    assert not found.low < power < found.high

@@ -3,10 +3,18 @@
 import numpy as np
 import pytest
 
-from book.chapter_6 import figures_model, figures_study, filters, shown
-from book.chapter_6.comparison import judged
-from book.chapter_6.numbers import spread_at_rest
+from book.chapter_6 import figures_model, figures_study, filters, results, shown
+from book.chapter_6.comparison import ENTRIES, criteria, judged
+from book.chapter_6.grasps import STIFFNESS, grasp
+from book.chapter_6.numbers import (
+    settled_on_rig,
+    spread_at_rest,
+    tracking_error_on_rig,
+    transient_difference_on_rig,
+    volume_of_fingers,
+)
 from book.chapter_6.results import logs_of
+from book.chapter_6.speed import speeds
 from book.companion.claims import printed
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.gripper.internal_model import PERIOD
@@ -70,25 +78,86 @@ def test_bilinear_rule_without_delay_is_stable_at_every_period():
     assert (figures_model.margins("bilinear", 0) > 0).all()
 
 
-@pytest.mark.parametrize("kind", ["open", "low-speed"])
-def test_deviations_lie_above_one_from_the_said_frequency_on(kind):
-    frequency, found = run_deviation(logs_of(kind), 0)
-    start = shown.above_one_from(kind)
-    assert (found[frequency >= start] > 1).all()
-    assert found[frequency < start][-1] <= 1
+@pytest.mark.parametrize(("kind", "finger"), [("open", 0), ("open", 1), ("low-speed", 0)])
+def test_deviations_lie_above_one_from_the_said_frequency_on(kind, finger):
+    """The largest of seven ratios of noise falls below one now and then."""
+    frequency, found = run_deviation(logs_of(kind), finger)
+    start = shown.passes_one(kind, finger)
+    assert (found[frequency < start] <= 1).all()
+    assert (found[frequency >= start] > 1).mean() > 0.9
 
 
-def test_slow_steps_deviate_from_lower_frequencies_on_but_spread_no_more():
-    assert shown.above_one_from("low-speed") < shown.above_one_from("open")
-    assert spread_at_rest(0.1) < 1.1 * spread_at_rest(5.0)  # as much as chance gives with 200 runs
+def test_models_deviate_far_less_than_records():
+    assert shown.largest_model_deviation() < 0.3
 
 
-def test_regulator_on_the_mean_settles_earlier_than_the_scheme():
-    for scheme in ("2/s", "4.8/s"):
-        medians = [
-            np.median(judged(name).settling["2 deg"]) for name in ("LQR on the mean", scheme)
-        ]
-        assert medians[0] < medians[1]
+def test_slow_steps_spread_no_more_than_fast_ones():
+    """Of 200 runs a standard deviation is known to 5 %, and so is the other."""
+    assert spread_at_rest("low") == pytest.approx(spread_at_rest("high"), rel=0.15)
+
+
+def test_weight_grows_as_the_push_slows_until_not_every_run_has_a_model():
+    weights = [results.largest_weight(speed * REV) for speed in speeds()]
+    told = [weight for weight in weights if weight is not None]
+    assert weights[: len(told)] == told
+    assert len(told) < len(weights)
+    assert told[-1] == max(told) > told[0]
+
+
+def test_faster_filter_settles_later_than_the_slower_one_in_every_band():
+    for band in criteria():
+        assert settled_on_rig("2/s", band) < settled_on_rig("4.8/s", band)
+
+
+@pytest.mark.parametrize("name", FILTERS)
+def test_narrower_bands_take_half_as_long_again_or_more(name):
+    narrow = min(settled_on_rig(name, band) for band in ("5 %", "2 deg"))
+    assert narrow > 1.5 * settled_on_rig(name)
+
+
+def test_motor_slows_the_slower_filter_and_keeps_the_faster_one_from_swinging():
+    free = "no motor limit"
+    assert settled_on_rig("2/s", rig=free) < settled_on_rig("2/s")
+    assert settled_on_rig("4.8/s", rig=free) > settled_on_rig("4.8/s")
+    swing = [np.median(judged("4.8/s", rig).overshoot) for rig in ("as it is", free)]
+    assert 3 * swing[0] < swing[1]
+    assert np.median(judged("4.8/s", free).peak) > 10 * SPEED_LIMIT
+
+
+def test_slower_filter_rests_within_the_print_and_the_faster_one_would_without_noise():
+    within = printed("6.4-measured-tracking-error")
+    assert tracking_error_on_rig("2/s") < within
+    quiet = np.median(judged("4.8/s", "no sensor noise").error) / DEG
+    assert quiet < tracking_error_on_rig("4.8/s") / 2
+
+
+def test_fingers_rest_later_than_the_text_pushes_and_are_back_within_a_second():
+    assert settled_on_rig("2/s", "2 deg") > printed("6.4-push-time")
+    assert results.recovery().max() < 1
+
+
+def test_regulator_on_the_mean_does_about_as_well_as_the_slower_filter():
+    """A quarter is no more than what the runs of either differ by, Table 6.H."""
+    for name in ("LQR on the mean", "4.8/s"):
+        apart = transient_difference_on_rig(name)
+        assert apart == pytest.approx(transient_difference_on_rig("2/s"), rel=0.25)
+    settled = settled_on_rig("LQR on the mean", "2 deg")
+    assert settled == pytest.approx(settled_on_rig("2/s", "2 deg"), rel=0.25)
+    assert max(map(tracking_error_on_rig, ("LQR on the mean", "2/s"))) < 1
+
+
+def test_command_in_open_loop_settles_first_and_errs_most_of_what_does_not_know_the_limit():
+    others = [name for name in ENTRIES if name != "optimal feedforward" and "limit" not in name]
+    first, error = (
+        settled_on_rig("optimal feedforward", "2 deg"),
+        tracking_error_on_rig("optimal feedforward"),
+    )
+    assert all(first < settled_on_rig(name, "2 deg") for name in others)
+    assert all(error > 2 * tracking_error_on_rig(name) for name in others)
+
+
+def test_syringe_would_drive_twice_as_many_fingers():
+    assert volume_of_fingers(6, np.pi / 2) < printed("6.3-volume-of-the-syringe-in-ml")
 
 
 def test_most_pairs_of_the_fast_loop_do_not_settle():
@@ -116,8 +185,27 @@ def test_out_of_reach_falls_for_equal_angles_and_rises_for_the_projection():
     assert high <= shown.missed_on_the_way() < 1.1 * high
 
 
-def test_every_drive_pushes_the_disc_aside_and_lets_it_come_back():
-    most, end = shown.pushed_aside()
-    assert (end > 0.5).all()
-    assert (end < most).all()
+def test_every_drive_pushes_the_disc_aside_as_far_and_the_fast_push_first():
+    slow, fast, scheme = shown.pushed_aside()
+    assert min(slow, fast, scheme) > 0.5
+    assert [slow, scheme] == pytest.approx([fast, fast], rel=0.25)
+    slow, fast, scheme = shown.pushed_aside(1.5)
+    assert slow < scheme < fast
     assert shown.first_touch("fast push") < shown.first_touch("scheme, 2/s")
+
+
+@pytest.mark.parametrize("disc", STIFFNESS.values())
+def test_force_of_the_scheme_keeps_growing_and_that_of_the_push_holds(disc):
+    """Means over the last two seconds, when the discs have stopped rattling."""
+    for drive, least, most in (("scheme, 2/s", 1.1, np.inf), ("fast push", 0.95, 1.05)):
+        held = grasp(disc, drive)
+        before, last = (
+            held.forces[0][(held.time > end - 1) & (held.time <= end)].mean() for end in (4, 5)
+        )
+        assert least < last / before < most
+
+
+def test_stiff_disc_rattles():
+    """It leaves the left finger more often than a soft one."""
+    left = [(np.diff(grasp(k, "fast push").forces[0] > 0) != 0).sum() for k in STIFFNESS.values()]
+    assert left[0] < left[-1]

@@ -9,7 +9,6 @@ from book.chapter_3.regulators import regulator
 from book.chapter_4.controllers import controller
 from book.chapter_6.controllers import gripper_controller, own_model, target_angles
 from book.companion.exhibit import exhibit
-from book.companion.simulated_logs import STEP
 from softgrip.control.rig_controller import Tracking
 from softgrip.logs.fingers import fingers_of
 from softgrip.logs.reader import read_log
@@ -47,11 +46,11 @@ def drawn(title, logs):
 )
 def test_a_step_of_the_finger(title, law, kept_logs, tmp_path):
     path, (other, own) = tmp_path / "step.csv", map(kept, kept_logs)
-    duration = float(read_log(own)["time"][-1])
+    duration, step = (float(read_log(own)[name][-1]) for name in ("time", "reference"))
     with connect("emulated") as rig:
         rig.home()
-        record(rig, Tracking(law(), STEP), duration, path, reference=STEP)
-    # Two runs of one finger: the sensor's noise, 2 deg, in both, and a start that the board's
+        record(rig, Tracking(law(), step), duration, path, reference=step)
+    # Two runs of one finger: the sensor's noise in both, and a start that the board's
     # acceleration limit and its clock delay by a period or two.
     assert apart(path, own) < 5 * DEG
     found, before = judge_step_log(path), judge_step_log(own)

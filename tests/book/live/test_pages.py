@@ -16,8 +16,10 @@ from softgrip.board.firmware.config import TABLES
 from softgrip.board.firmware.header import markdown
 from softgrip.board.framing import Frame, encode
 from softgrip.board.protocol import MESSAGES, Flag
+from softgrip.logs.reader import read_log
 from softgrip.provenance import data_folder
 from softgrip.rig.acceptance import judge
+from tests.logs.test_gaps import rewrite
 
 PAGES = ("rig", "commissioning", "protocol")
 KEPT = data_folder() / "simulated"
@@ -139,8 +141,25 @@ def test_the_table_of_bands_is_the_judgement():
     table = bands_table(logs)
     bands = [band for name, path in logs.items() for band in judge(path, name)]
     assert (table["verdict"] == "pass").tolist() == [band.passed for band in bands]
-    assert "never" in [*table["found"]]
     assert {*table["experiment"]} == {"pid, simulated", "gripper, simulated"}
+
+
+def test_a_log_that_swings_to_its_end_never_settles(path):
+    def swings(rows):
+        at = list(read_log(KEPT / "pid-full.csv").columns).index("angle")
+        return [[*row[:at], str(1 + k % 2), *row[at + 1 :]] for k, row in enumerate(rows)]
+
+    table = bands_table({"pid": rewrite(path, KEPT / "pid-full.csv", swings)})
+    (found,) = table["found"][table["quantity"].str.contains("settled")]
+    assert found == "never"
+
+
+def test_the_simulated_rig_fails_by_settling_late_alone():
+    """It is fitted to the printed times within bands of its own."""
+    logs = {"lqr": "lqr-fast", "pid": "pid-full", "gripper": "gripper-fast-1"}
+    bands = [band for name, log in logs.items() for band in judge(KEPT / f"{log}.csv", name)]
+    assert {band.passed: "settled" in band.quantity for band in bands} == {True: False, False: True}
+    assert all(band.found > band.high for band in bands if not band.passed)
 
 
 def test_a_chapters_figure_from_a_log_leaves_that_of_the_book_alone(tmp_path, monkeypatch):

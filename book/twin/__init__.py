@@ -1,0 +1,1 @@
+"""The printed measurements as one question to the simulated rig: targets, space, experiments."""
