@@ -1,4 +1,4 @@
-"""Chapter 4's pushes and a staircase with the example rig's finger, as logs: they hang on no fit."""
+"""Chapter 4's pushes and a staircase with the example rig's finger, as logs that hang on no fit."""
 
 from dataclasses import replace
 from functools import cache
