@@ -16,16 +16,8 @@ $(READY): environment.lock pyproject.toml
 	@found=$$(.ci/pythons $(PYTHON)) || exit 1; \
 	set -- $$found; python=$$2; \
 	echo "Making $(VENV) from environment.lock with Python $$1, $$python:" \
-	     "about two minutes and 1.5 GB, once."; \
-	if command -v uv >/dev/null; then \
-	  uv venv --quiet --allow-existing --python "$$python" $(VENV) && \
-	  VIRTUAL_ENV=$(VENV) uv pip install --quiet --require-hashes -r environment.lock && \
-	  VIRTUAL_ENV=$(VENV) uv pip install --quiet --no-deps --no-build-isolation -e .; \
-	else \
-	  "$$python" -m venv $(VENV) && \
-	  $(BIN)/python -m pip install --quiet --require-hashes -r environment.lock && \
-	  $(BIN)/python -m pip install --quiet --no-deps --no-build-isolation -e .; \
-	fi
+	     "a minute or two and 1.5 GB, once."; \
+	.ci/environment $(VENV) "$$python"
 	@touch $@
 
 book: $(READY)  ## build the book: book/_build/html/index.html
