@@ -8,7 +8,7 @@ from typing import Any
 from jupyter_cache import get_cache
 from sphinx.application import Sphinx
 
-from book.build import api, claim_role, equations, numbering, tracing, vendor
+from book.build import api, claim_role, equations, execution, numbering, tracing, vendor
 
 
 def _build_folder(app: Sphinx) -> Path:
@@ -67,13 +67,23 @@ def find_stale_pages(
     return sorted(stale & env.found_docs)
 
 
-def announce(app: Sphinx, page: str, _source: list[str]) -> None:
-    """Tell the kernel that may now start which page it serves."""
+def announced(app: Sphinx, page: str) -> dict[str, str]:
+    """Write down what is around a page, and return what tells its kernel which page it serves."""
     trace = _trace(app, page)
-    os.environ[tracing.TRACE_VARIABLE] = str(trace)
     context = trace.with_suffix(".context.json")
     context.parent.mkdir(parents=True, exist_ok=True)
     context.write_text(json.dumps(tracing.surroundings()))
+    return {tracing.TRACE_VARIABLE: str(trace)}
+
+
+def run_pages(app: Sphinx, env: Any, pages: list[str]) -> None:
+    """Run the pages that are about to be read and have no outputs, side by side."""
+    execution.execute(env, pages, lambda page: announced(app, page))
+
+
+def announce(app: Sphinx, page: str, _source: list[str]) -> None:
+    """Tell the kernel that may now start which page it serves."""
+    os.environ.update(announced(app, page))
 
 
 def remove_former_modules(app: Sphinx, _error: Exception | None) -> None:
@@ -96,6 +106,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("config-inited", use_local_scripts)
     app.connect("builder-inited", prepare_kernels)
     app.connect("env-get-outdated", find_stale_pages)
+    app.connect("env-before-read-docs", run_pages)
     app.connect("source-read", announce)
     app.connect("build-finished", remove_former_modules)
     app.add_css_file("softgrip.css")

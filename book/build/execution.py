@@ -1,0 +1,76 @@
+"""Pages side by side: those whose outputs are not kept run before Sphinx reads them, one a core.
+
+MyST-NB runs a page when it is read, one after the other. What jupyter-cache keeps by then it takes
+from there. A page that fails is left to it: it runs again, and the error is told as ever.
+"""
+
+import asyncio
+import os
+import time
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+from jupyter_cache import get_cache
+from jupyter_cache.base import CacheBundleIn
+from myst_nb.core.read import create_nb_reader
+from nbclient import NotebookClient
+from nbclient.exceptions import CellExecutionError, CellTimeoutError
+from nbformat import NotebookNode
+
+MOST = 4
+"""Pages at a time: a kernel takes up to a gigabyte."""
+
+
+def waiting(env: Any, pages: Iterable[str]) -> dict[str, NotebookNode]:
+    """Return the notebooks among some pages whose outputs are not kept, by page."""
+    cache, found = get_cache(env.mystnb_config.execution_cache_path), {}
+    for page in pages:
+        path = Path(env.doc2path(page))
+        text = path.read_text(encoding="utf-8")
+        if reader := create_nb_reader(str(path), env.myst_config, env.mystnb_config, text):
+            notebook = reader.read(text)
+            try:
+                cache.match_cache_notebook(notebook)
+            except KeyError:
+                found[page] = notebook
+    return found
+
+
+def execute(env: Any, pages: Iterable[str], variables: Callable[[str], dict[str, str]]) -> None:
+    """Run pages and keep their outputs; those that fail are left out.
+
+    Args:
+        env: Of Sphinx, with the settings of MyST-NB.
+        pages: By name; those whose outputs are kept, or that have no code, are skipped.
+        variables: Gives the environment of a page's kernel.
+    """
+    left = waiting(env, pages)
+    # The front page judges every claim, and keeps that for the others: it goes first.
+    order = sorted(left, key=lambda page: page != env.config.root_doc)
+    cache = get_cache(env.mystnb_config.execution_cache_path)
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    at_a_time = asyncio.Semaphore(min(MOST, cores or 1))
+
+    async def run(page: str) -> None:
+        path, notebook = Path(env.doc2path(page)), left[page]
+        async with at_a_time:
+            begun = time.monotonic()
+            client = NotebookClient(
+                notebook,
+                timeout=env.mystnb_config.execution_timeout,
+                resources={"metadata": {"path": str(path.parent)}},
+            )
+            try:
+                await client.async_execute(env=os.environ | variables(page))
+            except (CellExecutionError, CellTimeoutError):
+                return
+            took = time.monotonic() - begun
+        print(f"ran: {page} in {took:.0f} s", flush=True)
+        bundle = CacheBundleIn(notebook, str(path), data={"execution_seconds": took})
+        cache.cache_notebook_bundle(bundle, check_validity=False, overwrite=True)
+
+    async def run_all() -> None:
+        await asyncio.gather(*map(run, order))
+
+    asyncio.run(run_all())
