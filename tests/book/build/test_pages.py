@@ -1,6 +1,7 @@
 """Every page of the built book, opened in a browser that has no network."""
 
 import re
+from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -12,6 +13,8 @@ from book.build.equations import NUMBERS, pairs
 
 pytestmark = pytest.mark.book
 
+WIDTHS = (1280, 400)
+
 # Said by the theme on every page that is read from a disk; both are harmless.
 KNOWN = ("Identifier 'THEBE_JS_URL' has already been declared", "Got invalid theme mode")
 
@@ -19,8 +22,9 @@ KNOWN = ("Identifier 'THEBE_JS_URL' has already been declared", "Got invalid the
 class Visit:
     """A page, opened, with all that it asked for and complained of."""
 
-    def __init__(self, browser, file: Path, width: int = 1280):
-        self.context = browser.new_context(viewport={"width": width, "height": 900}, offline=True)
+    def __init__(self, browser, file: Path):
+        size = {"width": WIDTHS[0], "height": 900}
+        self.context = browser.new_context(viewport=size, offline=True)
         self.page = self.context.new_page()
         self.complaints: list[str] = []
         self.requests: list[str] = []
@@ -68,28 +72,56 @@ def chapters(html: Path) -> list[Path]:
     return [file for file in html.glob("*.html") if "widget-view+json" in file.read_text()]
 
 
-@pytest.mark.browser
-@pytest.mark.usefixtures("local_scripts")
-def test_no_page_asks_the_network_or_complains(html, browser):
-    for file in opened(html):
+@dataclass(frozen=True)
+class Seen:
+    """What a page was once it had loaded: the same visit serves several tests."""
+
+    schemes: set[str]
+    complaints: list[str]
+    equations: int
+    typeset: int
+    misread: int
+    widths: dict[int, int]
+    """Of the document, px, by that of the screen."""
+
+
+@pytest.fixture(scope="module")
+def seen(html, browser):
+    """Open each page once."""
+
+    def look(file: Path) -> Seen:
         with Visit(browser, file) as visit:
-            asked = {urlsplit(url).scheme for url in visit.requests}
-            assert asked <= {"file", "data", "blob"}, file
-            assert visit.complaints == [], file
+            page, widths = visit.page, {}
+            for width in WIDTHS:
+                page.set_viewport_size({"width": width, "height": 900})
+                widths[width] = page.evaluate("document.documentElement.scrollWidth")
+            return Seen(
+                {urlsplit(url).scheme for url in visit.requests},
+                visit.complaints,
+                page.locator(".math").count(),
+                page.locator(".math mjx-container").count(),
+                page.locator("mjx-merror").count(),
+                widths,
+            )
+
+    return {file: look(file) for file in opened(html)}
 
 
 @pytest.mark.browser
 @pytest.mark.usefixtures("local_scripts")
-def test_equations_are_typeset(html, browser):
-    seen = 0
-    for file in html.glob("*.html"):
-        with Visit(browser, file) as visit:
-            sources = visit.page.locator(".math").count()
-            typeset = visit.page.locator(".math mjx-container").count()
-            assert typeset >= sources, file
-            assert visit.page.locator("mjx-merror").count() == 0, file
-            seen += sources
-    assert seen > 10
+def test_no_page_asks_the_network_or_complains(seen):
+    for file, page in seen.items():
+        assert page.schemes <= {"file", "data", "blob"}, file
+        assert page.complaints == [], file
+
+
+@pytest.mark.browser
+@pytest.mark.usefixtures("local_scripts")
+def test_equations_are_typeset(seen):
+    for file, page in seen.items():
+        assert page.typeset >= page.equations, file
+        assert page.misread == 0, file
+    assert sum(page.equations for page in seen.values()) > 10
 
 
 @pytest.mark.browser
@@ -128,18 +160,22 @@ def picture(box) -> str:
 
 
 @pytest.mark.browser
-@pytest.mark.parametrize("width", [1280, 400])
-def test_no_page_is_wider_than_the_screen(html, browser, width):
-    for file in html.glob("*.html"):
-        with Visit(browser, file, width) as visit:
-            wide = visit.page.evaluate("document.documentElement.scrollWidth")
-            assert wide <= width, file
+@pytest.mark.parametrize("width", WIDTHS)
+def test_no_page_is_wider_than_the_screen(seen, width):
+    for file, page in seen.items():
+        if "_modules" not in file.parts:
+            assert page.widths[width] <= width, file
 
 
-def test_links_lead_somewhere(html):
-    files = {file.resolve(): BeautifulSoup(file.read_text(), "html.parser") for file in pages(html)}
-    ids = {file: {tag["id"] for tag in soup.find_all(id=True)} for file, soup in files.items()}
-    for file, soup in files.items():
+@pytest.fixture(scope="module")
+def soups(html):
+    """The text of each page, read once."""
+    return {f.resolve(): BeautifulSoup(f.read_text(), "html.parser") for f in pages(html)}
+
+
+def test_links_lead_somewhere(soups):
+    ids = {file: {tag["id"] for tag in soup.find_all(id=True)} for file, soup in soups.items()}
+    for file, soup in soups.items():
         for link in soup.find_all("a", href=True):
             target = urlsplit(link["href"])
             if target.scheme or target.netloc:
@@ -150,20 +186,19 @@ def test_links_lead_somewhere(html):
                 assert unquote(target.fragment) in ids[path], (file.name, link["href"])
 
 
-def test_pictures_have_words(html):
-    for file in pages(html):
-        for image in BeautifulSoup(file.read_text(), "html.parser").find_all("img"):
+def test_pictures_have_words(soups):
+    for file, soup in soups.items():
+        for image in soup.find_all("img"):
             assert image.get("alt"), (file.name, image.get("src"))
 
 
-def test_exhibits_bear_their_own_numbers_and_provenance(html, read_alone):
+def test_exhibits_bear_their_own_numbers_and_provenance(html, soups, read_alone):
     from book.companion.exhibit import exhibits
     from softgrip.provenance import data_file
 
     for item in exhibits():
         page = html / f"chapter-{item.number.split('.')[0]}.html"
-        soup = BeautifulSoup(page.read_text(), "html.parser")
-        place = soup.find(id=item.label)
+        place = soups[page.resolve()].find(id=item.label)
         assert place is not None, item.title
         caption = place.find(class_="caption-number")
         assert caption.text.strip() == item.title
@@ -188,25 +223,19 @@ def test_chapters_open_as_notebooks(root):
             assert len(found) == cells, file.name
 
 
-def test_each_equation_has_its_links_and_its_row(html):
-    rows = BeautifulSoup((html / "equations.html").read_text(), "html.parser").select(
-        "table.equations tbody tr"
-    )
+def test_each_equation_has_its_links_and_its_row(html, soups):
+    soups = {file.relative_to(html.resolve()).as_posix(): soup for file, soup in soups.items()}
+    rows = list(soups["equations.html"].select("table.equations tbody tr"))
     assert [row.td.text.strip() for row in rows] == [f"Eq. ({number})" for number in NUMBERS]
-    sources = {}
     for chapter in html.glob("chapter-*.html"):
-        soup = BeautifulSoup(chapter.read_text(), "html.parser")
-        for block in soup.select("div.math[id^=equation-eq-]"):
+        for block in soups[chapter.name].select("div.math[id^=equation-eq-]"):
             number = block["id"].removeprefix("equation-eq-").replace("-", ".")
             links = block.find_next_sibling("p")
             assert links["class"] == ["equation-links"], number
             assert [link.text for link in links("a")] == ["code", "test"], number
             for link, place in zip(links("a"), pairs()[number], strict=True):
                 file, _, name = link["href"].partition("#")
-                page = sources.setdefault(
-                    file, BeautifulSoup((html / file).read_text(), "html.parser")
-                )
                 assert name == place.name
-                assert place.name.split(".")[-1] in page.find(id=name).text, number
+                assert place.name.split(".")[-1] in soups[file].find(id=name).text, number
             rows.remove(next(row for row in rows if f"({number})" in row.td.text))
     assert rows == []

@@ -67,6 +67,7 @@ def test_files_that_a_thread_opens_meanwhile_do_no_harm(tmp_path, monkeypatch):
         number = 0
         while not ended.is_set():
             note(Path(f"/nowhere/{(number := number + 1)}"))
+            ended.wait(1e-5)  # else there are millions, and to sort them takes a minute
 
     # Another thread comes in between any two steps, not every 5 ms.
     usual = sys.getswitchinterval()

@@ -17,25 +17,32 @@ ALL = exhibits()
 
 @pytest.fixture(scope="module")
 def saved(tmp_path_factory):
-    """Save every exhibit twice."""
-    folders = [tmp_path_factory.mktemp("first"), tmp_path_factory.mktemp("second")]
-    made = {item.title: [save(item, folder) for folder in folders] for item in ALL}
-    return folders, made
+    """Save every exhibit; return the folder, and what was made by title."""
+    folder = tmp_path_factory.mktemp("first")
+    return folder, {item.title: save(item, folder) for item in ALL}
 
 
+@pytest.fixture(scope="module")
+def again(saved, tmp_path_factory):
+    """Save every exhibit once more."""
+    folder = tmp_path_factory.mktemp("second")
+    return folder, {item.title: save(item, folder) for item in ALL}
+
+
+@pytest.mark.book
 @pytest.mark.parametrize("item", ALL, ids=lambda item: item.title)
-def test_files_are_the_same_to_the_bit(item, saved):
-    first, second = (sorted(folder.glob(f"{item.name}.*")) for folder in saved[0])
+def test_files_are_the_same_to_the_bit(item, saved, again):
+    first, second = (sorted(folder.glob(f"{item.name}.*")) for folder in (saved[0], again[0]))
     assert [f.name for f in first] == [f.name for f in second] != []
     assert [f.read_bytes() for f in first] == [f.read_bytes() for f in second]
 
 
 @pytest.mark.parametrize("item", ALL, ids=lambda item: item.title)
 def test_csv_holds_finite_numbers(item, saved):
-    path = saved[0][0] / f"{item.name}.csv"
+    path = saved[0] / f"{item.name}.csv"
     assert path.exists() != item.drawing
     if item.drawing:
-        assert not any(axes.axison for axes in saved[1][item.title][0].shown.axes)
+        assert not any(axes.axison for axes in saved[1][item.title].shown.axes)
         return
     frame = pd.read_csv(path)
     assert len(frame) >= 2
@@ -45,7 +52,7 @@ def test_csv_holds_finite_numbers(item, saved):
 
 @pytest.mark.parametrize("item", ALL, ids=lambda item: item.title)
 def test_what_stands_beside_it_is_there(item, saved):
-    made = saved[1][item.title][0].shown
+    made = saved[1][item.title].shown
     assert isinstance(made, Figure if item.kind == "figure" else pd.DataFrame)
     assert item.caption.strip().endswith(".")
     assert "{{" not in item.caption + item.alt
@@ -60,13 +67,17 @@ def test_words_are_of_the_exhibits_there_are(chapter):
         assert set(found) == ({"caption", "alt"} if title.startswith("Figure") else {"caption"})
 
 
+@pytest.mark.book
 def test_nothing_is_read_before_an_exhibit_is_made(read_alone):
     assert read_alone["an import"] == []
 
 
+@pytest.mark.book
 @pytest.mark.parametrize("item", ALL, ids=lambda item: item.title)
-def test_strip_names_what_it_reads_alone_though_others_have_read_it_before(item, saved, read_alone):
-    for made in saved[1][item.title]:
+def test_strip_names_what_it_reads_alone_though_others_have_read_it_before(
+    item, saved, again, read_alone
+):
+    for made in (saved[1][item.title], again[1][item.title]):
         names = [file.path.relative_to(data_folder().resolve()).as_posix() for file in made.data]
         assert names == read_alone[item.title]
 
@@ -74,7 +85,7 @@ def test_strip_names_what_it_reads_alone_though_others_have_read_it_before(item,
 def test_axes_of_every_figure_are_named(saved):
     for item in ALL:
         if item.kind == "figure" and not item.drawing:
-            frame = pd.read_csv(saved[0][0] / f"{item.name}.csv")
+            frame = pd.read_csv(saved[0] / f"{item.name}.csv")
             assert frame[["x_is", "y_is"]].notna().all(axis=None), item.title
 
 
