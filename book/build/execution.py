@@ -59,6 +59,7 @@ def execute(env: Any, pages: Iterable[str], variables: Callable[[str], dict[str,
             client = NotebookClient(
                 notebook,
                 timeout=env.mystnb_config.execution_timeout,
+                record_timing=False,  # it would stand in the cells, by which outputs are found
                 resources={"metadata": {"path": str(path.parent)}},
             )
             try:
