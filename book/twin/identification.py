@@ -17,12 +17,18 @@ from softgrip.dynamics.second_order import free_motion
 
 FREQUENCIES = 12
 """Of the starts of `identify_second_order`, as of `identify`."""
+COARSE = 4
+"""Samples of which one serves to search a start: which of a grid is nearest, a quarter tells."""
 FARTHEST = 60.0
 """Size of a logarithm of mass, damping or stiffness beyond which nothing changes any more."""
 MOST_DAMPING = 1e3
 """Largest damping ratio, and the inverse of the least, on which a controller is designed."""
 LEAST_ANGLE, LEAST_PRESSURE = 1e-3, 1.0
 """rad and Pa."""
+
+
+Fit = tuple[Squares, Callable[[Floats, Which], tuple[Floats, Floats]]]
+"""The squares of a fit, and their sum and the gains without derivatives."""
 
 
 @dataclass(frozen=True)
@@ -112,15 +118,13 @@ def _squares(
     systems: Callable[[Floats], Floats],
     *,
     offset: bool = False,
-) -> tuple[Squares, Callable[[Floats, Which], tuple[Floats, Floats]]]:
+) -> Fit:
     """Return the squares of a fit of systems to records, and the same without derivatives.
 
     Args:
         linear, inputs, outputs, offset: As of `responses.squares`.
         systems: From parameters, shape (..., fits, P), to systems, shape (..., rows, fits).
 
-    Returns:
-        tuple: The second function gives the sums of squares, and the gains.
     """
     from book.twin.responses import squares
 
@@ -176,13 +180,17 @@ def identify_second_order(
     u_scale, y_scale = np.abs(u).max(axis=1), np.ptp(y, axis=1)
     u, y = u / u_scale[:, None], y / y_scale[:, None]
     y -= offset * y.mean(axis=1, keepdims=True)
-    squares, alone = _squares(
-        True,
-        u,
-        y,
-        lambda x: _second_orders(period, np.exp(x[..., 0]), np.exp(x[..., 1])),
-        offset=offset,
-    )
+
+    def made(every: int) -> Fit:
+        return _squares(
+            True,
+            u[:, ::every],
+            y[:, ::every],
+            lambda x: _second_orders(every * period, np.exp(x[..., 0]), np.exp(x[..., 1])),
+            offset=offset,
+        )
+
+    squares, alone = made(1)
     band = (0.1 / duration, np.pi / period)
     if start is None:
         x = np.full((len(u), 2), np.nan)
@@ -194,7 +202,8 @@ def identify_second_order(
     ).reshape(-1, 2)
     lost = np.flatnonzero(np.isnan(x).any(axis=1))
     if lost.size:
-        costs = [alone(np.broadcast_to(one, (lost.size, 2)), lost)[0] for one in grid]
+        roughly = made(COARSE)[1]
+        costs = [roughly(np.broadcast_to(one, (lost.size, 2)), lost)[0] for one in grid]
         x[lost] = grid[np.argmin(costs, axis=0)]
     x = fit(squares, x)
     w, z = np.exp(x).T
