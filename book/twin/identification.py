@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from book.twin.least_squares import STEP, Squares, Which, fit
+from book.twin.least_squares import Squares, Which, fit
 from softgrip.arrays import Flags, Floats, Number
 from softgrip.dynamics.identify import START_DAMPING
 from softgrip.dynamics.ludwick import LudwickFinger
@@ -19,6 +19,8 @@ FREQUENCIES = 12
 """Of the starts of `identify_second_order`, as of `identify`."""
 COARSE = 4
 """Samples of which one serves to search a start: which of a grid is nearest, a quarter tells."""
+MORE = 1e-7
+"""Of the differences of logarithms: between what a curve and what rounding makes of a slope."""
 FARTHEST = 60.0
 """Size of a logarithm of mass, damping or stiffness beyond which nothing changes any more."""
 MOST_DAMPING = 1e3
@@ -131,17 +133,16 @@ def _squares(
     u, y = np.ascontiguousarray(inputs), np.ascontiguousarray(outputs)
 
     def found(x: Floats, which: Which) -> tuple[Floats, ...]:
-        fits, slopes = x.shape[1], (len(x) - 1) // 2
+        fits, slopes = x.shape[1], len(x) - 1
         gains, cost = np.empty(fits), np.empty(fits)
         pull, normal = np.empty((fits, slopes)), np.empty((fits, slopes, slopes))
         own = np.ascontiguousarray(systems(x))
-        squares(linear, offset, u, y, which, own, STEP, gains, cost, pull, normal)
+        squares(linear, offset, u, y, which, own, MORE, gains, cost, pull, normal)
         return cost, gains, pull, normal
 
     def whole(x: Floats, which: Which) -> tuple[Floats, Floats, Floats]:
-        moved = STEP * np.eye(x.shape[1])
-        more_and_less = np.stack([moved, -moved], axis=1).reshape(-1, 1, x.shape[1])
-        cost, _, pull, normal = found(np.concatenate([x[None], x + more_and_less]), which)
+        moved = np.concatenate([x[None], x + MORE * np.eye(x.shape[1])[:, None]])
+        cost, _, pull, normal = found(moved, which)
         return cost, pull, normal
 
     def cost_alone(x: Floats, which: Which) -> tuple[Floats, Floats]:

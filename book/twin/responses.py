@@ -1,8 +1,8 @@
 """Responses of many small systems to many sampled inputs, and what least squares need of them.
 
-Compiled, several records side by side. A system of a record may come in variants, whose parameters
-are a little more and a little less, one after the other: the differences of their responses are
-the slopes of the sum of squares.
+Compiled, several records side by side. A system of a record may come in variants, in each of which
+a parameter is a little more: the differences of their responses are the slopes of the sum of
+squares.
 """
 
 from typing import Any
@@ -141,17 +141,18 @@ def squares(
         offset: Whether a second-order response is taken without its mean; the outputs have none.
         inputs, outputs: Shape (records, N).
         which: The record of each fit, shape (fits,).
-        systems: Shape (1 + 2 P, rows, fits): each, then with a parameter more, and less, in turn.
-        step: By how much more or less.
+        systems: Shape (1 + P, rows, fits): each, then with one parameter more, in turn.
+        step: By how much more.
         gains: To fill, shape (fits,): of the first variant.
         cost, pull, normal: To fill: the sum, half its gradient, and J' J, shapes (fits,), (fits, P)
             and (fits, P, P).
     """
     size, P = inputs.shape[1], pull.shape[1]
     u, y = np.zeros((size, LANES)), np.zeros((size, LANES))
-    made = np.zeros((1 + 2 * P, size, LANES))
-    level, gain = np.zeros((1 + 2 * P, LANES)), np.ones((1 + 2 * P, LANES))
+    made = np.zeros((1 + P, size, LANES))
+    level, gain = np.zeros((1 + P, LANES)), np.ones((1 + P, LANES))
     slope, total = np.zeros((P, LANES)), np.zeros(LANES)
+    here, off = np.zeros(LANES), np.zeros(LANES)
     along, across = np.zeros((P, LANES)), np.zeros((P, P, LANES))
     for first in range(0, len(which), LANES):
         count = _take(inputs, which, first, u)
@@ -162,20 +163,18 @@ def squares(
                 _scale(offset, made[v], y, level[v], gain[v])
         total[:], along[:], across[:] = 0.0, 0.0, 0.0
         for k in range(size):
+            for j in range(LANES):
+                here[j] = gain[0, j] * (made[0, k, j] - level[0, j])
+                off[j] = here[j] - y[k, j]
+                total[j] += off[j] * off[j]
             for p in range(P):
-                a, b = 1 + 2 * p, 2 + 2 * p
                 for j in range(LANES):
-                    more = gain[a, j] * (made[a, k, j] - level[a, j])
-                    less = gain[b, j] * (made[b, k, j] - level[b, j])
-                    off = gain[0, j] * (made[0, k, j] - level[0, j]) - y[k, j]
-                    slope[p, j] = (more - less) / (2 * step)
-                    along[p, j] += slope[p, j] * off
+                    more = gain[1 + p, j] * (made[1 + p, k, j] - level[1 + p, j])
+                    slope[p, j] = (more - here[j]) / step
+                    along[p, j] += slope[p, j] * off[j]
                 for q in range(p + 1):
                     for j in range(LANES):
                         across[p, q, j] += slope[p, j] * slope[q, j]
-            for j in range(LANES):
-                off = gain[0, j] * (made[0, k, j] - level[0, j]) - y[k, j]
-                total[j] += off * off
         for j in range(count):
             cost[first + j], gains[first + j] = total[j], gain[0, j]
             for p in range(P):
