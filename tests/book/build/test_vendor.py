@@ -1,5 +1,6 @@
 import base64
 import hashlib
+import tarfile
 
 import pytest
 
@@ -33,3 +34,15 @@ def test_what_is_there_is_not_fetched_again(tmp_path, monkeypatch):
     assert vendor.ensure(tmp_path)
     assert vendor.ensure(tmp_path)
     assert fetched == [package.name for package in vendor.PACKAGES]
+
+
+@pytest.mark.parametrize("filters", [True, False])
+@pytest.mark.filterwarnings("ignore:Python 3.14 will, by default, filter:DeprecationWarning")
+def test_archives_are_unpacked_on_pythons_without_filters(tmp_path, monkeypatch, filters):
+    (tmp_path / "main.js").write_text("1")
+    with tarfile.open(tmp_path / "package.tgz", "w:gz") as tar:
+        tar.add(tmp_path / "main.js", "package/main.js")
+    if not filters:
+        monkeypatch.delattr(tarfile, "data_filter", raising=False)
+    vendor.unpack(tmp_path / "package.tgz", tmp_path / "out")
+    assert (tmp_path / "out/package/main.js").read_text() == "1"
