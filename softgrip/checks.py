@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats, check_positive
-from softgrip.errors import InvalidInputError
+from softgrip.errors import InvalidInputError, NotFiniteError
 
 
 def check_not_negative(**values: ArrayLike) -> None:
@@ -39,6 +39,29 @@ def check_finite(**values: ArrayLike) -> None:
     for name, value in values.items():
         if not np.isfinite(np.asarray(value, dtype=np.float64)).all():
             raise InvalidInputError(name, expected="finite numbers", got=value)
+
+
+def samples(**values: ArrayLike) -> tuple[Floats, ...]:
+    """Return what a controller, differentiator or filter is given at one time, as float arrays.
+
+    It is called before anything is kept: one NaN in a sum, or a filter, would stay in it for good.
+
+    Raises:
+        NotFiniteError: If a value is no number, NaN or infinite.
+
+    >>> [y.tolist() for y in samples(measurement=0.5, reference=[1, 2])]
+    [0.5, [1.0, 2.0]]
+    """
+    found = []
+    for name, value in values.items():
+        try:
+            array = np.asarray(value, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise NotFiniteError(name, got=value) from None
+        if not np.isfinite(array).all():
+            raise NotFiniteError(name, got=array.tolist())
+        found.append(array)
+    return tuple(found)
 
 
 def record(*, at_least: int, **columns: ArrayLike) -> tuple[Floats, ...]:

@@ -12,6 +12,22 @@ class InvalidInputError(SoftgripError, ValueError):
         super().__init__(f"{name}: expected {expected}, got {got!r}")
 
 
+class NotFiniteError(InvalidInputError):
+    """A sample that is not a finite number; what was given it is as it was before."""
+
+    def __init__(self, name: str, *, got: object) -> None:
+        expected = "finite numbers (nothing has changed: leave this sample out, or stop)"
+        super().__init__(name, expected=expected, got=got)
+
+
+class FitWarning(UserWarning):
+    """A fit that does not hold: what it gives is returned, and is not to be relied on."""
+
+
+class DependentRowsWarning(UserWarning):
+    """Rows that are not independent: what is tested on some of them was trained on their like."""
+
+
 class UnknownNameError(SoftgripError, KeyError):
     """A name that is not in a table; the message lists those that are."""
 

@@ -1,4 +1,4 @@
-"""What all tests share: where the public data lie, the project's root, no deadlines."""
+"""What all tests share: where data and cases lie, the project's root, no deadlines."""
 
 import os
 from collections import Counter
@@ -12,6 +12,8 @@ collect_ignore = ["bench/elastica_rod.py"]  # runs in an environment of its own
 
 ROOT = Path(__file__).parent.parent
 BESIDE = ROOT.parent / "shared"
+CASES = Path(os.environ.get("SOFTGRIP_CASES_DIR", BESIDE / "cases" / "own-data"))
+"""Inputs as people of the field bring them."""
 
 for variable, name in (("SOFTGRIP_MATERIALS_DIR", "materials"), ("SOFTGRIP_AUTHOR_DIR", "author")):
     if variable not in os.environ and (BESIDE / name).is_dir():

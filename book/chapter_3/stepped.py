@@ -34,7 +34,7 @@ def small_motions() -> float:
 def identified_step(rig: RigParameters) -> Identified:
     """Identify the mean of seven simulated steps, pressure to angle, as Section 3.4 does."""
     test = simulate_step_test(rig, travel_to(rig, frequency_step()), runs=RUNS, seed=SEED)
-    return identify(test.time, test.pressure, test.angle, initial_input=0.0)
+    return identify(test.time, test.pressure, test.angle, initial_input=0.0, dead_time=0.0)
 
 
 @remembered

@@ -52,7 +52,9 @@ def identify_finger(paths: Sequence[Path]) -> Identified:
     """
     logs = read_alike(paths)
     mean = {name: np.mean([log[name] for log in logs], axis=0) for name in ("pressure", "angle")}
-    return identify(logs[0]["time"], mean["pressure"], mean["angle"], initial_input=0.0)
+    return identify(
+        logs[0]["time"], mean["pressure"], mean["angle"], initial_input=0.0, dead_time=0.0
+    )
 
 
 def identify_capacity(path: Path, *, below: float = LOW_PRESSURE) -> float:

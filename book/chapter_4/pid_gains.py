@@ -53,7 +53,7 @@ def curves(model: IdentifiedModel) -> dict[str, ReactionCurve]:
     """Return the reaction curves of both models, by the keys of `MODELS`."""
     finger, whole = state_space(model.finger), full_state_space(model.finger, model.pump_gain)
     return {
-        "actuator": reaction_curve(*unit_step(finger)),
+        "actuator": reaction_curve(*unit_step(finger), window=2),
         "full": integrating_reaction_curve(*unit_step(whole)),
     }
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from book.companion.style import GREY, LUDWICK, MEASURED, WIDTH, style
-from softgrip.board.calibration import BoardCalibration, SensorLine, nominal
+from softgrip.board.calibration import BoardCalibration, SensorCurve, nominal
 from softgrip.logs.reader import read_log
 from softgrip.rig.acceptance import Experiment, judge
 from softgrip.units import DEG
@@ -39,8 +39,9 @@ def bands_table(logs: Mapping[Experiment, Path | str]) -> pd.DataFrame:
 
 
 def lines_table(measured: BoardCalibration) -> pd.DataFrame:
-    """Tabulate what a count is worth by measured lines and by those of the data sheets."""
+    """Tabulate what a count is worth by measured curves and by the lines of the data sheets."""
     sheet = nominal(len(measured.angles))
+    lines: list[tuple[str, str, float, SensorCurve, SensorCurve]]
     lines = [("pressure", "Pa", 1.0, measured.pressure, sheet.pressure)]
     lines += [
         (f"angle {k}", "deg", DEG, *pair)
@@ -50,18 +51,24 @@ def lines_table(measured: BoardCalibration) -> pd.DataFrame:
         {
             "sensor": sensor,
             "unit": unit,
-            "a count": f"{found.gain / scale:.4g}",
-            "by the data sheet": f"{told.gain / scale:.4g}",
+            "a count": f"{_count(found) / scale:.4g}",
+            "by the data sheet": f"{_count(told) / scale:.4g}",
             "residual": f"{found.residual / scale:.2g}",
         }
         for sensor, unit, scale, found, told in lines
     )
 
 
+def _count(curve: SensorCurve) -> float:
+    """Return what a count is worth, in the mean over the counts that were measured."""
+    ends = curve.value([curve.low_count, curve.high_count])
+    return float(np.ptp(ends)) / (curve.high_count - curve.low_count)
+
+
 def draw_calibration(
-    counts: ArrayLike, known: ArrayLike, line: SensorLine, *, unit: str, factor: float
+    counts: ArrayLike, known: ArrayLike, line: SensorCurve, *, unit: str, factor: float
 ) -> Figure:
-    """Draw pairs, their line, and below what the line leaves over.
+    """Draw pairs, their curve, and below what it leaves over.
 
     Args:
         counts, known, line: As of `fit_sensor`.
@@ -71,8 +78,8 @@ def draw_calibration(
     with style():
         drawn = Figure(figsize=(WIDTH, 3.6))
         above, below = drawn.subplots(2, 1, sharex=True, height_ratios=(2, 1))
-        ends = np.array([x.min(), x.max()])
-        above.plot(ends, factor * line.value(ends), color=LUDWICK, label="line")
+        over = np.linspace(x.min(), x.max(), 100)
+        above.plot(over, factor * line.value(over), color=LUDWICK, label="fitted")
         above.plot(x, factor * y, "o", color=MEASURED, label="readings")
         above.set(ylabel=unit)
         above.legend(loc="upper left")

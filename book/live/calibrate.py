@@ -62,7 +62,7 @@ def take_readings(rig: Rig, known: Known, *, count: int = 14) -> Readings:
 
 
 def fit_calibration(readings: Readings, board: str, name: str) -> BoardCalibration:
-    """Fit the line of each sensor, that of a flex sensor to angles within its data sheet's range.
+    """Fit the curve of each sensor, that of a flex sensor to angles in its data sheet's range.
 
     Args:
         readings: Of three readings or more, in the range of each sensor.
@@ -70,10 +70,11 @@ def fit_calibration(readings: Readings, board: str, name: str) -> BoardCalibrati
         name: For the header of logs.
 
     Raises:
-        InvalidInputError: If the readings fix no line.
+        InvalidInputError: If the readings fix no curve, or those of the pressure sensor no line,
+            in which the board holds its limits.
     """
     end = FITTED * SensorParameters().angle_range
     fingers = zip(readings.angle_counts.T, readings.angles.T, strict=True)
     angles = tuple(fit_sensor(counts[known < end], known[known < end]) for counts, known in fingers)
-    pressure = fit_sensor(readings.pressure_counts, readings.pressure)
+    pressure = fit_sensor(readings.pressure_counts, readings.pressure, curve="line")
     return BoardCalibration(board, pressure, angles, name)

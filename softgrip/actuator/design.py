@@ -10,6 +10,7 @@ from softgrip.actuator.section import Section, torque
 from softgrip.arrays import Number, check_positive
 from softgrip.errors import InvalidInputError, SoftgripError
 from softgrip.materials.table import material
+from softgrip.plausible import ANGLE, DIMENSION, LENGTH, MASS, PRESSURE, YOUNG_MODULUS
 from softgrip.units import MM, MPa
 
 Range = tuple[float, float]
@@ -189,11 +190,26 @@ def height_range(bounds: Bounds) -> Range:
     )
 
 
+def check_units(problem: DesignProblem) -> None:
+    """Raise InvalidInputError for the first number that is likely to be in another unit than SI."""
+    bounds, band = problem.bounds, problem.band
+    LENGTH.check("length", problem.length)
+    for name in (*DIMENSIONS, "height"):
+        DIMENSION.check(name, getattr(bounds, name))
+    PRESSURE.check("pressure", problem.pressure)
+    YOUNG_MODULUS.check("young_modulus", problem.young_modulus)
+    ANGLE.check("angle_scale", problem.angle_scale)
+    if band is not None:
+        MASS.check("least_mass, largest_mass", (band.least_mass, band.largest_mass))
+
+
 def check_feasible(problem: DesignProblem) -> None:
     """Raise InfeasibleDesignError if no section fulfils the constraints.
 
     The product of Eq. (3.21) grows with w, a and b, so what it can be lies between two corners.
+    InvalidInputError is raised for numbers in other units (`check_units`).
     """
+    check_units(problem)
     bounds = problem.bounds
     low, high = height_range(bounds)
     if low > high:

@@ -100,6 +100,7 @@ def optimal_design(problem: DesignProblem, start: Section | None = None) -> Desi
     Raises:
         InfeasibleDesignError: If no section fulfils the constraints; it names the one and the
             nearest feasible band.
+        InvalidInputError: If a number is likely to be in another unit than SI.
         SolverError: If IPOPT does not converge.
 
     >>> from softgrip.actuator.design import Bounds

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from scipy.signal import savgol_coeffs
 
 from softgrip.arrays import Floats, Number, check_positive
+from softgrip.checks import samples
 from softgrip.control.pid import PERIOD
 from softgrip.errors import InvalidInputError
 
@@ -24,7 +25,8 @@ class Differentiator(Protocol):
     def update(self, measurement: ArrayLike) -> Floats:
         """Take the next sample, rad, shape () or (runs,); return (3,) or (3, runs): per s^0,1,2.
 
-        Before the first sample the signal rested at it.
+        Before the first sample the signal rested at it. NotFiniteError is raised for NaN or
+        infinity, and the state is as before.
         """
         ...
 
@@ -77,7 +79,7 @@ class RobustDifferentiator:
 
     def update(self, measurement: ArrayLike) -> Floats:
         """Take the next sample and return angle, rate and acceleration at it."""
-        y = np.asarray(measurement, dtype=np.float64)
+        (y,) = samples(measurement=measurement)
         if self._state is None:
             self._state = np.stack([y, np.zeros_like(y), np.zeros_like(y)])
         now = self._state
@@ -121,7 +123,7 @@ class PolynomialDifferentiator:
 
     def update(self, measurement: ArrayLike) -> Floats:
         """Take the next sample and return angle, rate and acceleration at it."""
-        y = np.asarray(measurement, dtype=np.float64)
+        (y,) = samples(measurement=measurement)
         window = self.rows.shape[1]
         self._last = [*self._last[1:], y] if self._last else [y] * window
         return np.asarray(np.tensordot(self.rows, np.stack(self._last), axes=1))

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats, Number, check_positive
+from softgrip.checks import samples
 from softgrip.errors import InvalidInputError
 
 PERIOD = 0.025
@@ -104,9 +105,12 @@ class PID:
 
         Returns:
             ndarray: Command within the limits, shape () or (runs,).
+
+        Raises:
+            NotFiniteError: If one is NaN or infinite; integral and derivative are as before.
         """
-        measured = np.asarray(measurement, dtype=np.float64)
-        error = np.asarray(reference, dtype=np.float64) - measured
+        wanted, measured = samples(reference=reference, measurement=measurement)
+        error = wanted - measured
         if self.derivative_on == "error":
             signal, before = error, np.zeros_like(error)
         else:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import read_only
+from softgrip.checks import samples
 from softgrip.control.loop import Controller
 
 
@@ -64,7 +65,8 @@ class Tracking:
 
     def update(self, measured: ArrayLike) -> ArrayLike:
         """Return the command, rad/s, shape (runs,); angles in rad, shape (fingers, runs)."""
-        mean = np.asarray(measured, dtype=np.float64).mean(axis=0)
+        mean = samples(measured=measured)[0].mean(axis=0)
         now = self.reference[min(self._sample, self.reference.size - 1)]
+        command = self.controller.update(np.full(mean.shape, now), mean)
         self._sample += 1
-        return self.controller.update(np.full(mean.shape, now), mean)
+        return command

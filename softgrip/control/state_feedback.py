@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats, Number, check_positive
+from softgrip.checks import samples
 from softgrip.control.differentiator import Differentiator
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import canonical_form
@@ -58,10 +59,14 @@ class StateFeedback:
 
         Args:
             reference, measurement: rad, floats or shape (runs,).
+
+        Raises:
+            NotFiniteError: If one is NaN or infinite; the differentiator is as before.
         """
-        angle, rate, acceleration = self.differentiator.update(measurement)
+        wanted, measured = samples(reference=reference, measurement=measurement)
+        angle, rate, acceleration = self.differentiator.update(measured)
         K = self.speed_gain
-        error = np.asarray(reference, dtype=np.float64) - angle
+        error = wanted - angle
         free = K[0] * error - K[1] * rate - K[2] * acceleration
         return np.asarray(np.round(free, SPEED_DIGITS))
 
@@ -136,8 +141,11 @@ class ObserverFeedback:
 
         Args:
             reference, measurement: rad, floats or shape (runs,).
+
+        Raises:
+            NotFiniteError: If one is NaN or infinite; the filter is as before.
         """
-        y, r = np.asarray(measurement, np.float64), np.asarray(reference, np.float64)
+        y, r = samples(measurement=measurement, reference=reference)
         miss = y - self.input_gain * self._predicted[0]
         found = self._predicted + self.correct * miss
         K = self.gain.reshape(3, -1)

@@ -10,7 +10,7 @@ from softgrip.arrays import Floats, read_only
 from softgrip.control.loop import LoopResult
 from softgrip.control.pid import Gains
 from softgrip.control.step_metrics import overshoot
-from softgrip.errors import InvalidInputError
+from softgrip.errors import InvalidInputError, NotFiniteError
 
 Simulate = Callable[[Gains], LoopResult]
 Objective = Callable[[LoopResult], float]
@@ -102,7 +102,10 @@ def tune(
     def cost(point: Floats) -> float:
         # Unstable gains are visited on purpose, and their numbers may overflow.
         with np.errstate(over="ignore", invalid="ignore"):
-            value = judge(simulate(at(point)))
+            try:
+                value = judge(simulate(at(point)))
+            except NotFiniteError:
+                value = np.inf
         values.append(min(value, LOST) if np.isfinite(value) else LOST)
         return values[-1]
 

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from scipy.linalg import block_diag
 
 from softgrip.arrays import Floats, check_positive, read_only
+from softgrip.checks import samples
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.inversion import LeftInverse, filtered_inverse
 from softgrip.gripper.plant import Gripper, sampled, state_space
@@ -181,8 +182,12 @@ class InternalModelController:
 
         Returns:
             ndarray: Command within the limit, shape () or (runs,).
+
+        Raises:
+            NotFiniteError: If an angle is NaN or infinite; filters and model are as before.
+            InvalidInputError: If there are more or fewer fingers.
         """
-        y = np.asarray(measured, dtype=np.float64)
+        (y,) = samples(measured=measured)
         if y.ndim not in (1, 2) or len(y) != len(self.target):
             raise InvalidInputError(
                 "measured", expected=f"shape ({len(self.target)},) or (fingers, runs)", got=y.shape

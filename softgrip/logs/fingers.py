@@ -88,9 +88,10 @@ def identify_finger(time: Floats, motor_angle: Floats, angle: Floats) -> Identif
     """Fit a finger of second order, from the angle of the motor [rad] to that of the finger [rad].
 
     The motor angle stands for the pressure, which Eq. (6.14) makes proportional to it. A count of
-    the pressure sensor of Section 6.4 is a quarter of what bends a finger to pi/4.
+    the pressure sensor of Section 6.4 is a quarter of what bends a finger to pi/4. The model
+    has no dead time.
     """
-    return identify(time, motor_angle, angle, initial_input=0.0)
+    return identify(time, motor_angle, angle, initial_input=0.0, dead_time=0.0)
 
 
 def dynamics_of(found: Identified) -> FingerDynamics:

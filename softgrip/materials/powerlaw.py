@@ -12,6 +12,7 @@ from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
 from softgrip.materials.least_squares import Prediction, normal_equations, prediction_interval
 from softgrip.materials.table import fractional_powers, properties, table_5_1
+from softgrip.plausible import STRENGTH, VISCOSITY, YOUNG_MODULUS
 from softgrip.units import MPa
 
 EXPONENTS = (1.0, 0.5, 0.5)
@@ -20,6 +21,7 @@ SCALES = (1 * MPa, 50.0, 10 * MPa)
 """Units of E [Pa], MV [Pa s] and TS [Pa] in Eq. (5.7); they change coefficients only."""
 
 PROPERTIES = ("young_modulus", "mixed_viscosity", "tensile_strength")
+PLAUSIBLE = (YOUNG_MODULUS, VISCOSITY, STRENGTH)
 
 
 def predictors(E: ArrayLike, MV: ArrayLike, TS: ArrayLike) -> Floats:
@@ -126,8 +128,8 @@ def predict_power(
             give.
 
     Raises:
-        InvalidInputError: If a property is not a finite number above zero, or `confidence` is not
-            in (0, 1).
+        InvalidInputError: If a property is not a finite number above zero, or is one that no
+            elastomer has (`plausible`), or `confidence` is not in (0, 1).
 
     >>> found = predict_power(0.34e6, 20, 3.79e6)
     >>> round(found.power.value, 2), found.extrapolates
@@ -135,6 +137,8 @@ def predict_power(
     """
     new = (young_modulus, mixed_viscosity, tensile_strength)
     check_positive(**dict(zip(PROPERTIES, new, strict=True)))
+    for range_, name, value in zip(PLAUSIBLE, PROPERTIES, new, strict=True):
+        range_.check(name, value)
     if not 0 < confidence < 1:
         raise InvalidInputError("confidence", expected="a number in (0, 1)", got=confidence)
     known = table_5_1().values()

@@ -19,7 +19,7 @@ class CapacityEstimate:
         time: s, from 0, shape (N,).
         state: Pressure, Pa, and elastance, Pa/m^3, shape (N, 2).
         covariance: Of the state, shape (N, 2, 2).
-        innovation: Measured minus predicted pressure, Pa, shape (N,).
+        innovation: Measured minus predicted pressure, Pa, shape (N,); NaN where none was measured.
         innovation_variance: What the filter expects of its square, Pa^2, shape (N,).
     """
 
@@ -54,7 +54,10 @@ class CapacityEstimate:
 
     @property
     def normalized_innovation_squared(self) -> Floats:
-        """Innovation squared over its variance, shape (N,): chi-square, 1 degree of freedom."""
+        """Innovation squared over its variance, shape (N,): chi-square, 1 degree of freedom.
+
+        NaN where nothing was measured.
+        """
         result: Floats = self.innovation**2 / self.innovation_variance
         return result
 
@@ -62,7 +65,7 @@ class CapacityEstimate:
     def log_likelihood(self) -> float:
         """Logarithm of the density of the measurements, 1/Pa each."""
         terms = np.log(2 * np.pi * self.innovation_variance) + self.normalized_innovation_squared
-        return -0.5 * float(np.sum(terms))
+        return -0.5 * float(np.nansum(terms))
 
 
 def estimate(
@@ -71,7 +74,8 @@ def estimate(
     angle: ArrayLike,
     model: ElastanceModel,
     *,
-    steps: ArrayLike = 1.0,
+    time: ArrayLike | None = None,
+    steps: ArrayLike | None = None,
 ) -> CapacityEstimate:
     """Run the elastance filter over a record.
 
@@ -81,22 +85,31 @@ def estimate(
     count as a perfect measurement.)
 
     Args:
-        pressure: Measured, Pa, shape (N,), N >= 2.
+        pressure: Measured, Pa, shape (N,), N >= 2; NaN where a sample is missing: there
+            the filter predicts and measures nothing.
         flow: Commanded, m^3/s, shape (N,); ``flow[k]`` holds from sample k to k + 1, so the last is
             not used. Its sign is that of Eq. (4.2): above zero the plunger goes in.
-        angle: Measured bending angle, rad, shape (N,).
+        angle: Measured bending angle, rad, shape (N,); NaN where a sample is missing: the angle
+            turns evenly from the one before to the one after.
         model: Time step, noise levels, prior and angle gain.
-        steps: Time from each sample to the next in time steps of the model, > 0: a number or shape
-            (N - 1,). At 2 a sample is missing between two. The flow holds, and the angle turns
-            evenly.
+        time: Of the samples, s, shape (N,), increasing. A record with lost or uneven rows needs it:
+            without `time` and `steps` each sample is one time step of the model after the last.
+        steps: In its place, the time from each sample to the next in time steps of the model, > 0:
+            a number or shape (N - 1,). At 2 a sample is missing between two. The flow holds, and
+            the angle turns evenly.
 
     Raises:
-        InvalidInputError: If the shapes differ, a value is not finite, or a step is not above zero.
+        InvalidInputError: If the shapes differ, fewer than two pressures or no angle are measured,
+            a value is infinite, a flow is not finite, the time does not increase, or a step is not
+            above zero.
     """
-    measured, pushed, bent = record(at_least=2, pressure=pressure, flow=flow, angle=angle)
+    measured, pushed, bent = _measured(pressure, flow, angle)
     kalman = elastance_filter(model)
     N = measured.size
-    apart = _steps(steps, N - 1)
+    apart = _steps(time, steps, N, model.time_step)
+    since = np.concatenate([[0.0], np.cumsum(apart)]) * model.time_step
+    seen = ~np.isnan(bent)
+    bent = np.interp(since, since[seen], bent[seen])
     predictions = np.maximum(np.rint(apart), 1)
     moves = transitions(pushed[:-1] * (apart / predictions), model.time_step)
     turns = np.diff(bent) / predictions
@@ -106,18 +119,50 @@ def estimate(
         for _ in range(int(predictions[k - 1]) if k else 0):
             # A column for the input: with a scalar, filterpy spreads the state into a matrix.
             kalman.predict(u=turns[k - 1].reshape(1, 1), F=moves[k - 1])
-        kalman.update(measured[k])
+        innovation[k] = measured[k] - kalman.x[0, 0]
+        variance[k] = kalman.P[0, 0] + kalman.R.item()
+        if np.isfinite(measured[k]):
+            kalman.update(measured[k])
         state[k], covariance[k] = kalman.x[:, 0], kalman.P
-        innovation[k], variance[k] = kalman.y.item(), kalman.S.item()
-    time = np.concatenate([[0.0], np.cumsum(apart)]) * model.time_step
     return CapacityEstimate(
-        *(read_only(values) for values in (time, state, covariance, innovation, variance))
+        *(read_only(values) for values in (since, state, covariance, innovation, variance))
     )
 
 
-def _steps(steps: ArrayLike, count: int) -> Floats:
-    found = np.asarray(steps, dtype=np.float64)
+def _measured(
+    pressure: ArrayLike, flow: ArrayLike, angle: ArrayLike
+) -> tuple[Floats, Floats, Floats]:
+    """Return the record, checked; pressures and angles that are missing stay NaN."""
+    z, theta = (np.asarray(values, dtype=np.float64) for values in (pressure, angle))
+    known = [np.where(np.isnan(values), 0.0, values) for values in (z, theta)]
+    _, pushed, _ = record(at_least=2, pressure=known[0], flow=flow, angle=known[1])
+    counts = [np.count_nonzero(~np.isnan(values)) for values in (z, theta)]
+    if counts[0] < 2 or not counts[1]:
+        raise InvalidInputError(
+            "pressure, angle",
+            expected="two pressures and an angle or more that are not NaN",
+            got=f"{counts[0]} and {counts[1]}",
+        )
+    return z, pushed, theta
+
+
+def _steps(
+    time: ArrayLike | None, steps: ArrayLike | None, samples: int, time_step: float
+) -> Floats:
+    """Return the time from each sample to the next in time steps of the model, shape (N - 1,)."""
+    if time is not None:
+        if steps is not None:
+            raise InvalidInputError("time, steps", expected="one of them", got="both")
+        (t,) = record(at_least=2, time=time)
+        if t.size != samples or not (np.diff(t) > 0).all():
+            raise InvalidInputError(
+                "time", expected=f"shape ({samples},), increasing, s", got=t.tolist()
+            )
+        return np.asarray(np.diff(t) / time_step)
+    found = np.asarray(1.0 if steps is None else steps, dtype=np.float64)
     check_positive(steps=found)
-    if found.shape not in ((), (count,)):
-        raise InvalidInputError("steps", expected=f"a number or shape ({count},)", got=found.shape)
-    return np.broadcast_to(found, count)
+    if found.shape not in ((), (samples - 1,)):
+        raise InvalidInputError(
+            "steps", expected=f"a number or shape ({samples - 1},)", got=found.shape
+        )
+    return np.broadcast_to(found, samples - 1)

@@ -7,6 +7,7 @@ from types import MappingProxyType
 
 from softgrip.arrays import Value, check_positive
 from softgrip.errors import UnknownNameError
+from softgrip.plausible import AREA, LEAD
 from softgrip.units import REV
 
 
@@ -17,6 +18,9 @@ class Pump:
     Attributes:
         area: Inside cross-section A of the syringe, m^2, > 0.
         lead: Travel l of the slider in one turn of the screw, m, > 0.
+
+    Raises:
+        InvalidInputError: If one is not above zero, or no pump has it: `plausible`.
     """
 
     area: float
@@ -24,6 +28,8 @@ class Pump:
 
     def __post_init__(self) -> None:
         check_positive(area=self.area, lead=self.lead)
+        AREA.check("area", self.area)
+        LEAD.check("lead", self.lead)
 
     @property
     def displacement(self) -> float:

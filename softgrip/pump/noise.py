@@ -74,7 +74,8 @@ def estimate_noise(
     model: ElastanceModel,
     *,
     fit_gain: bool = False,
-    steps: ArrayLike = 1.0,
+    time: ArrayLike | None = None,
+    steps: ArrayLike | None = None,
 ) -> NoiseEstimate:
     """Find the three levels, and the gain if wanted, that make a record's innovations most likely.
 
@@ -85,7 +86,7 @@ def estimate_noise(
         pressure, flow, angle: As for `capacity.estimate`; N >= 50.
         model: Its noise levels are the first guess and must be above zero; the rest is held.
         fit_gain: Whether to fit the angle gain too, from that of the model on.
-        steps: As for `capacity.estimate`.
+        time, steps: As for `capacity.estimate`.
 
     Raises:
         InvalidInputError: If the record is too short or the pump stands still in it, a first guess
@@ -109,7 +110,7 @@ def estimate_noise(
         return replace(model, noise=noise, angle_gain=gain)
 
     def cost(x: Floats) -> float:
-        return -estimate(pressure, flow, angle, at(x), steps=steps).log_likelihood
+        return -estimate(pressure, flow, angle, at(x), time=time, steps=steps).log_likelihood
 
     reach = float(np.log(SEARCH_FACTOR))
     bounds = [(-reach, reach)] * 3 + [(None, None)] * fit_gain

@@ -64,21 +64,25 @@ def run_printed(kalman: KalmanFilter, angle: ArrayLike) -> tuple[Floats, Floats]
 
     Args:
         kalman: From `printed_filter`.
-        angle: Measured theta, rad, shape (N,), N >= 1.
+        angle: Measured theta, rad, shape (N,), N >= 1; NaN where a sample is missing: there the
+            filter predicts and measures nothing.
 
     Returns:
         state (ndarray): [C, theta] after each measurement, shape (N, 2).
         covariance (ndarray): Shape (N, 2, 2).
 
     Raises:
-        InvalidInputError: If the angles are not finite or not of shape (N,).
+        InvalidInputError: If an angle is infinite, or they are not of shape (N,).
     """
-    (measured,) = record(at_least=1, angle=angle)
+    measured = np.asarray(angle, dtype=np.float64)
+    missing = np.isnan(measured)
+    record(at_least=1, angle=np.where(missing, 0.0, measured))
     states, covariances = np.empty((measured.size, 2)), np.empty((measured.size, 2, 2))
     for k, z in enumerate(measured):
         if k:
             kalman.predict()
-        kalman.update(z)
+        if not missing[k]:
+            kalman.update(z)
         states[k], covariances[k] = kalman.x[:, 0], kalman.P
     return states, covariances
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats
+from softgrip.checks import samples
 from softgrip.control.differentiator import RobustDifferentiator
 from softgrip.simulator.sampled_law import SampledLaw
 
@@ -27,7 +28,8 @@ class LawController:
 
     def update(self, measured: ArrayLike) -> Floats:
         """Return the command, rad/s, shape (runs,); angles in rad, shape (fingers, runs)."""
-        law, m, seen = self.law, self.law.matrices, np.asarray(measured, dtype=np.float64)
+        (seen,) = samples(measured=measured)
+        law, m = self.law, self.law.matrices
         if self._differentiator is not None:
             seen = self._differentiator.update(seen.mean(axis=0))
         y = seen.T

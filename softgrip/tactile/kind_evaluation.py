@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from sklearn.base import clone
 from sklearn.model_selection import (
     GroupKFold,
+    StratifiedGroupKFold,
     StratifiedKFold,
     cross_val_predict,
     train_test_split,
@@ -47,9 +48,17 @@ def train_and_test(
 
 
 def cross_validated(
-    model: Any, responses: ArrayLike, kinds: ArrayLike, *, seed: int, folds: int = FOLDS
+    model: Any,
+    responses: ArrayLike,
+    kinds: ArrayLike,
+    *,
+    seed: int,
+    folds: int = FOLDS,
+    groups: ArrayLike | None = None,
 ) -> Right:
     """Tell which contacts are right when each fold is left out in turn, at random.
+
+    With groups a fold is made of whole ones: of whole presses, say, where a press is many rows.
 
     Args:
         model: A classifier of scikit-learn; a copy is fitted.
@@ -57,10 +66,25 @@ def cross_validated(
         kinds: Shape (N,).
         seed: Of the folds.
         folds: Their number, >= 2.
+        groups: Such as `PadReadings.groups`, shape (N,); None if each contact is one of its own.
+
+    Raises:
+        InvalidInputError: If a kind has fewer groups, or contacts, than there are folds: some fold
+            would have none of it.
     """
     labels = np.asarray(kinds)
-    parts = StratifiedKFold(folds, shuffle=True, random_state=seed)
-    return np.asarray(cross_val_predict(model, responses, labels, cv=parts) == labels)
+    units = np.arange(labels.size) if groups is None else np.asarray(groups)
+    counts = {str(kind): np.unique(units[labels == kind]).size for kind in np.unique(labels)}
+    rarest = min(counts, key=lambda kind: counts[kind])
+    if not 2 <= folds <= counts[rarest]:
+        what = "contacts" if groups is None else "groups"
+        raise InvalidInputError(
+            "folds", expected=f"2 to {counts[rarest]}, the {what} of the kind {rarest}", got=folds
+        )
+    make = StratifiedKFold if groups is None else StratifiedGroupKFold
+    parts = make(folds, shuffle=True, random_state=seed)
+    found = cross_val_predict(model, responses, labels, groups=groups, cv=parts)
+    return np.asarray(found == labels)
 
 
 def cross_validated_by_object(

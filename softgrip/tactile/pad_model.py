@@ -26,7 +26,7 @@ from softgrip.tactile.contact_kind import (
     bagged_neighbours,
     nearest_neighbours,
 )
-from softgrip.tactile.nadaraya_watson import NadarayaWatson
+from softgrip.tactile.nadaraya_watson import NadarayaWatson, best_bandwidth
 from softgrip.tactile.own_pad import Labels, PadReadings
 
 LEAST_DRAWN = 10
@@ -58,7 +58,9 @@ class KindSettings:
         labels = readings.labels
         kinds = sorted(set(map(str, labels)))
         if labels.dtype.kind != "U" or len(kinds) < 2:
-            raise InvalidInputError("labels", expected="at least two kinds of contact", got=kinds)
+            raise InvalidInputError(
+                "labels", expected="at least two kinds of contact, as strings", got=kinds[:8]
+            )
         if not self.estimators:
             least, drawn = self.neighbours, len(labels)
         else:
@@ -82,7 +84,7 @@ class ForceSettings:
 
     Attributes:
         bandwidth: Of `nadaraya_watson.NadarayaWatson`, in parts of each channel's range; None to
-            choose it by leaving one reading out at a time.
+            choose it by leaving one reading, or one group of readings, out at a time.
     """
 
     bandwidth: float | None = None
@@ -91,14 +93,19 @@ class ForceSettings:
         """Return the regressor, not fitted, for some readings.
 
         Raises:
-            InvalidInputError: If the readings' labels are not forces, or all one.
+            InvalidInputError: If the readings' labels are not forces, all one, or all of one group.
         """
         labels = readings.labels
         if labels.dtype.kind != "f" or np.unique(labels).size < 2:
             raise InvalidInputError(
                 "labels", expected="at least two forces, N", got=np.unique(labels).tolist()[:1]
             )
-        return make_pipeline(MinMaxScaler(), NadarayaWatson(bandwidth=self.bandwidth))
+        bandwidth = self.bandwidth
+        if bandwidth is None and readings.groups is not None:
+            points = np.asarray(MinMaxScaler().fit_transform(readings.voltages), dtype=np.float64)
+            forces = np.asarray(labels, dtype=np.float64)
+            bandwidth = best_bandwidth(points, forces, groups=readings.groups)
+        return make_pipeline(MinMaxScaler(), NadarayaWatson(bandwidth=bandwidth))
 
 
 Settings = KindSettings | ForceSettings
@@ -216,6 +223,7 @@ def save(model: PadModel, path: Path | str) -> None:
         "channels": list(readings.channels),
         "voltages": readings.voltages.tolist(),
         "labels": readings.labels.tolist(),
+        "groups": None if readings.groups is None else readings.groups.tolist(),
         "answers": model.predict(_examples(readings)).tolist(),
     }
     Path(path).write_text(json.dumps(record) + "\n", encoding="utf-8")
@@ -241,7 +249,10 @@ def load(path: Path | str) -> PadModel:
     try:
         settings = TASKS[record["task"]](**record["settings"])
         readings = PadReadings(
-            tuple(record["channels"]), np.array(record["voltages"]), np.array(record["labels"])
+            tuple(record["channels"]),
+            np.array(record["voltages"]),
+            np.array(record["labels"]),
+            record.get("groups"),
         )
         model = PadModel(settings, saturation=record["saturation"]).fit(readings)
         answers = np.array(record["answers"])

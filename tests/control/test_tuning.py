@@ -99,6 +99,13 @@ def test_loop_that_runs_away_counts_as_lost():
     assert found.history[-1] == LOST
 
 
+def test_loop_whose_controller_refuses_what_overflowed_counts_as_lost():
+    def away(gains):
+        PID(gains).update(1.0, np.inf)
+
+    assert tune(away, Gains(1.0), evaluations=5).history[-1] == LOST
+
+
 def test_nothing_to_tune():
     with pytest.raises(InvalidInputError, match="other than zero"):
         tune(on_the_full_model, Gains(0.0))

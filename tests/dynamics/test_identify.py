@@ -1,5 +1,8 @@
 """Second-order identification: known systems come back, within intervals that mean 95 %."""
 
+import re
+import warnings
+
 import numpy as np
 import pytest
 from scipy.optimize import curve_fit
@@ -7,7 +10,7 @@ from scipy.stats import binom
 
 from softgrip.dynamics.identify import identify
 from softgrip.dynamics.second_order import SecondOrder, response, step_response
-from softgrip.errors import InvalidInputError
+from softgrip.errors import FitWarning, InvalidInputError
 
 TIME = np.arange(0, 6, 0.025)
 RISING = np.where(TIME < 0.5, 0.0, 1e5 * (1 - np.exp(-(TIME - 0.5) / 0.4)))
@@ -34,7 +37,7 @@ def test_intervals_hold_the_truth_95_times_in_100():
     for seed in range(runs):
         noise = np.random.default_rng(seed).normal(0, 0.035, TIME.size)  # 2 deg
         counts = np.round((clean + noise) / 0.006) * 0.006  # 10 bits over about 350 deg
-        found = identify(TIME, RISING, counts)
+        found = identify(TIME, RISING, counts, dead_time=0.0)
         estimates = (found.natural_frequency, found.damping_ratio, found.gain, found.offset)
         truths = (2.86, 0.7, 2.4e-5, 0.05)
         hits += [e.low <= v <= e.high for e, v in zip(estimates, truths, strict=True)]
@@ -107,7 +110,80 @@ def test_held_command_is_not_taken_for_a_ramp():
     u = np.where(t < 0.95, 0.0, 1.0)
     y = response(SecondOrder(2.86, 0.7), t, u, hold="zero")
     assert identify(t, u, y, hold="zero").natural_frequency.value == pytest.approx(2.86, rel=1e-6)
-    assert abs(identify(t, u, y).natural_frequency.value / 2.86 - 1) > 0.02
+    ramp = identify(t, u, y, dead_time=0.0)
+    assert abs(ramp.natural_frequency.value / 2.86 - 1) > 0.02
+
+
+STEP = np.where(TIME < 1.0, 0.0, 1e5)
+
+
+@pytest.mark.parametrize("hold", ["zero", "linear"])
+@pytest.mark.parametrize(("late", "damping"), [(0.1, 0.7), (0.013, 1.2), (0.4, 0.3)])
+def test_exact_record_gives_its_dead_time_back(late, damping, hold):
+    system = SecondOrder(2.86, damping, 2.4e-5)
+    moved = np.union1d(TIME, TIME - late)
+    moved = moved[moved >= 0]
+    held = STEP[np.searchsorted(TIME, moved, side="right") - 1]
+    pressure = held if hold == "zero" else np.interp(moved, TIME, RISING)
+    earlier = response(system, moved, pressure, hold=hold)
+    angle = 0.05 + np.interp(TIME - late, moved, earlier, left=0.0)
+    found = identify(TIME, STEP if hold == "zero" else RISING, angle, hold=hold)
+    assert found.dead_time.value == pytest.approx(late, rel=1e-4)
+    assert found.natural_frequency.value == pytest.approx(2.86, rel=1e-4)
+    assert found.damping_ratio.value == pytest.approx(damping, rel=1e-4)
+    known = identify(TIME, STEP if hold == "zero" else RISING, angle, hold=hold, dead_time=late)
+    assert known.natural_frequency.value == pytest.approx(2.86, rel=1e-4)
+    assert (known.dead_time.value, known.dead_time.standard_error) == (late, 0.0)
+
+
+def test_dead_time_lies_in_its_interval_and_leaves_the_frequency_alone():
+    """The response to a step a dead time later, by the closed form of Eq. (4.11)."""
+    runs, hits = 20, np.zeros(2, int)
+    clean = step_response(np.maximum(TIME - 1.1, 0), 2.86, 0.7)
+    for seed in range(runs):
+        y = clean + np.random.default_rng(seed).normal(0, 0.01, TIME.size)
+        found = identify(TIME, STEP, y, hold="zero")
+        pairs = (found.natural_frequency, 2.86), (found.dead_time, 0.1)
+        hits += [e.low <= true <= e.high for e, true in pairs]
+        assert not found.warning
+    assert np.all(hits >= binom.ppf(0.001, runs, 0.95)), hits
+    assert identify(TIME, STEP, y, hold="zero", dead_time=0.0).natural_frequency.high < 2.6
+
+
+def test_record_without_a_dead_time_is_given_none():
+    y = response(SecondOrder(2.86, 0.7, 2.4e-5), TIME, RISING)
+    y = y + np.random.default_rng(0).normal(0, 0.02, TIME.size)
+    dead = identify(TIME, RISING, y).dead_time
+    assert (dead.value, dead.low, dead.high) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("late", [0.0, 0.3])
+def test_first_order_process_is_told(late):
+    clean = -np.expm1(-np.maximum(TIME - late, 0) / 0.8)
+    y = clean + np.random.default_rng(0).normal(0, 0.01, TIME.size)
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        try:
+            words = identify(TIME, np.ones_like(TIME), y, initial_input=0.0).warning
+            assert [str(w.message) for w in said] == [words]
+        except InvalidInputError as error:
+            words = str(error)
+    assert re.search(r"first-order process of time constant 0\.(79|8|80)\d* s fits as well", words)
+
+
+def test_response_of_another_shape_is_warned_of():
+    y = np.where(TIME > 2, 1.0, 0.3 * TIME) + np.random.default_rng(0).normal(0, 0.01, TIME.size)
+    with pytest.warns(FitWarning, match="misses the output by"):
+        found = identify(TIME, np.ones_like(TIME), y, initial_input=0.0)
+    assert "misses the output" in found.warning
+    # Who says which model he wants is not warned, but can ask.
+    assert identify(TIME, np.ones_like(TIME), y, initial_input=0.0, dead_time=0.0).warning
+
+
+@pytest.mark.parametrize("late", [-0.1, 6.0, np.nan])
+def test_dead_time_out_of_range(late):
+    with pytest.raises(InvalidInputError, match=r"dead_time: expected None, or 0 to 5\.975 s"):
+        identify(TIME, RISING, GOOD, dead_time=late)
 
 
 def test_uneven_times_are_used_as_they_are():

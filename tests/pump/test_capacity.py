@@ -99,6 +99,52 @@ def test_missing_samples_are_predicted_over_and_have_no_likelihood(lost):
     np.testing.assert_allclose(found.time, time[kept] * DT, rtol=1e-12)
 
 
+@pytest.mark.parametrize("missing", [[0], [3], [1, 2, 6], [7]])
+def test_pressures_that_are_nan_are_predicted_over_and_have_no_likelihood(short, missing):
+    measured, flow, angle = short
+    found = estimate(np.where(np.isin(np.arange(8), missing), np.nan, measured), flow, angle, MODEL)
+    oracle, kept = oracle_of(MODEL, flow, angle), np.delete(np.arange(8), missing)
+    oracle.Z, oracle.z_mean = oracle.Z[kept], np.array(oracle.z_mean)[kept]
+    for k in range(int(kept[0]), 8):
+        before = int(np.count_nonzero(kept <= k))
+        mean, covariance = oracle.state(k, measured[kept[:before], None])
+        std = np.sqrt(np.diag(covariance))
+        np.testing.assert_allclose(found.state[k] / std, mean / std, rtol=1e-9, atol=1e-9)
+    assert found.log_likelihood == pytest.approx(oracle.log_density(measured[kept]), rel=1e-9)
+    np.testing.assert_array_equal(np.flatnonzero(np.isnan(found.innovation)), missing)
+
+
+def test_angles_that_are_nan_turn_evenly(short):
+    measured, flow, angle = short
+    time = DT * np.array([0, 1, 2, 4, 5, 6, 7, 8.0])
+    line = angle[2] + (angle[4] - angle[2]) * 2 / 3
+    filled, holed = angle.copy(), angle.copy()
+    filled[3], holed[3] = line, np.nan
+    found = estimate(measured, flow, holed, MODEL, time=time)
+    expected = estimate(measured, flow, filled, MODEL, time=time)
+    np.testing.assert_allclose(found.state, expected.state, rtol=1e-12)
+
+
+@pytest.mark.parametrize("lost", ["a fifth", "a tenth of a second each second", "uneven"])
+def test_capacity_of_a_record_with_lost_rows_comes_from_its_times(lost):
+    rng = np.random.default_rng(8)
+    time = np.arange(200) * DT
+    if lost == "a fifth":
+        time = time[np.sort(rng.choice(200, 160, replace=False))]
+    elif lost == "uneven":
+        time = np.cumsum(rng.uniform(0.2, 1.8, 200)) * DT
+    else:
+        time = time[np.arange(200) % 40 >= 4]
+    pressure = FLOW * (time - time[0]) / 1.2e-9 + rng.normal(0, 100, time.size)
+    noise = elastance.NoiseLevels(pressure_step=40.0, elastance_step=1e5, sensor=100.0)
+    model = elastance.ElastanceModel(DT, noise, PRIOR)
+    flow, angle = np.full(time.size, FLOW), np.zeros(time.size)
+    found = estimate(pressure, flow, angle, model, time=time)
+    assert abs(found.capacity[-1] - 1.2e-9) < 3 * found.capacity_std[-1] < 0.1e-9
+    if lost != "uneven":  # where rows are lost, those that are left are too far apart for one step
+        assert estimate(pressure, flow, angle, model).capacity[-1] < 1.1e-9
+
+
 def test_uneven_steps_move_by_their_own_time(short):
     measured, flow, angle = short
     steps = np.array([1.0, 0.8, 1.2, 1.0, 1.4, 0.6, 1.0])
@@ -201,8 +247,20 @@ def test_bad_records_are_refused(short):
         estimate(measured, flow[:-1], angle, MODEL)
     with pytest.raises(InvalidInputError, match="N >= 2"):
         estimate(measured[:1], flow[:1], angle[:1], MODEL)
-    with pytest.raises(InvalidInputError, match="NaN"):
-        estimate(np.where(measured > 0, np.nan, measured), flow, angle, MODEL)
+    with pytest.raises(InvalidInputError, match="finite"):
+        estimate(np.where(measured > 0, np.inf, measured), flow, angle, MODEL)
+    with pytest.raises(InvalidInputError, match="finite"):
+        estimate(measured, np.where(angle > 0.5, np.nan, flow), angle, MODEL)
+    with pytest.raises(InvalidInputError, match="two pressures"):
+        estimate(np.where(angle > 0, np.nan, measured), flow, angle, MODEL)
+    with pytest.raises(InvalidInputError, match="an angle or more"):
+        estimate(measured, flow, np.nan * angle, MODEL)
+    time = np.arange(8.0)
+    for times in (time[:-1], time[::-1], np.where(time == 3, 2.0, time)):
+        with pytest.raises(InvalidInputError, match="increasing"):
+            estimate(measured, flow, angle, MODEL, time=times)
+    with pytest.raises(InvalidInputError, match="one of them"):
+        estimate(measured, flow, angle, MODEL, time=time, steps=1.0)
     for steps in (0.0, [1.0, 1.0], np.full(7, np.nan)):
         with pytest.raises(InvalidInputError, match="steps"):
             estimate(measured, flow, angle, MODEL, steps=steps)

@@ -20,7 +20,7 @@ def test_one_turn_moves_the_slider_by_the_lead(lead):
     assert slider_speed(2 * pi, lead) == pytest.approx(lead)
 
 
-@given(area=positive, lead=positive, speed=st.floats(-100, 100))
+@given(area=st.floats(1e-6, 0.1), lead=st.floats(1e-4, 0.2), speed=st.floats(-100, 100))
 def test_flow_is_area_times_slider_speed(area, lead, speed):
     pump = Pump(area, lead)
     assert flow(speed, pump) == pytest.approx(area * slider_speed(speed, lead))
@@ -67,4 +67,17 @@ def test_unknown_set_lists_the_known_ones():
 @pytest.mark.parametrize(("area", "lead"), [(0, 1), (1, -1), (float("nan"), 1), (1, float("inf"))])
 def test_bad_pump_is_refused(area, lead):
     with pytest.raises(InvalidInputError, match="> 0"):
+        Pump(area, lead)
+
+
+@pytest.mark.parametrize(
+    ("area", "lead", "meant"),
+    [
+        (661, 0.008, r"661: probably mm\^2 \(0\.000661 m\^2\)"),
+        (6.61, 0.008, r"6\.61: probably cm\^2 \(0\.000661 m\^2\) or mm\^2"),
+        (6.61e-4, 8, r"8: probably mm \(0\.008 m\) or cm \(0\.08 m\)"),
+    ],
+)
+def test_pump_in_other_units_is_refused_with_what_was_meant(area, lead, meant):
+    with pytest.raises(InvalidInputError, match=meant):
         Pump(area, lead)

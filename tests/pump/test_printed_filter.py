@@ -125,3 +125,18 @@ def test_shapes_that_do_not_fit_are_refused():
         observable_rank(np.eye(2)[np.newaxis], np.eye(2), [1.0])
     with pytest.raises(InvalidInputError, match="angle"):
         run_printed(printed_filter(K, **LEVELS), np.zeros((3, 1)))
+
+
+def test_angles_that_are_nan_are_predicted_over():
+    measured = angles(30)
+    missing = np.isin(np.arange(30), [0, 7, 8, 29])
+    kalman = printed_filter(K, **LEVELS)
+    oracle, kept = joint(kalman, 30), np.flatnonzero(~missing)
+    oracle.Z, oracle.z_mean = oracle.Z[kept], np.array(oracle.z_mean)[kept]
+    found, _ = run_printed(kalman, np.where(missing, np.nan, measured))
+    for k in (1, 7, 8, 9, 29):
+        before = int(np.count_nonzero(kept <= k))
+        mean, _ = oracle.state(k, measured[kept[:before], None])
+        np.testing.assert_allclose(found[k] / SCALE, mean / SCALE, rtol=1e-9)
+    with pytest.raises(InvalidInputError, match="finite"):
+        run_printed(printed_filter(K, **LEVELS), [0.1, np.inf])

@@ -66,3 +66,35 @@ def test_one_object_cannot_be_left_out():
     x, kinds = numbered(6)
     with pytest.raises(InvalidInputError, match="at least two objects"):
         kind_evaluation.cross_validated_by_object(Remembers(), x, kinds, ["egg"] * 6)
+
+
+def test_no_press_is_tested_on_itself_when_presses_are_groups():
+    presses = np.repeat(np.arange(30), 8)
+    x = presses[:, None].astype(float)  # all samples of a press are alike
+    kinds = KINDS[presses % 3]
+    assert kind_evaluation.cross_validated(Remembers(), x, kinds, seed=0).all()
+    right = kind_evaluation.cross_validated(Remembers(), x, kinds, seed=0, groups=presses)
+    assert not right.any()
+
+
+def test_samples_of_presses_that_say_nothing_are_right_by_chance_only_with_groups():
+    """A press lies anywhere, whatever its kind: two in three are wrong."""
+    rng = np.random.default_rng(0)
+    presses = np.repeat(np.arange(60), 10)
+    x = rng.random((60, 2))[presses] + 0.01 * rng.normal(size=(600, 2))
+    kinds = KINDS[presses % 3]
+    model = KNeighborsClassifier(5)
+    assert kind_evaluation.cross_validated(model, x, kinds, seed=0).mean() > 0.9
+    right = kind_evaluation.cross_validated(model, x, kinds, seed=0, groups=presses)
+    # The standard deviation of the share over 60 presses is 6 %.
+    assert abs(right.mean() - 1 / 3) < 0.2
+
+
+def test_more_folds_than_contacts_or_groups_of_a_kind_are_refused():
+    x, kinds = numbered(12)
+    with pytest.raises(InvalidInputError, match="2 to 4, the contacts of the kind line"):
+        kind_evaluation.cross_validated(Remembers(), x, kinds, seed=0)
+    with pytest.raises(InvalidInputError, match="2 to 2, the groups of the kind line"):
+        kind_evaluation.cross_validated(
+            Remembers(), x, kinds, seed=0, folds=3, groups=np.arange(12) // 6
+        )

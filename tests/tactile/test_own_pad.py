@@ -89,3 +89,41 @@ def test_readings_that_do_not_fit_together_are_refused(change, message):
 def test_log_of_the_rig_is_refused_with_what_reads_it():
     with pytest.raises(DataFileError, match=r"columns kind.*read by softgrip\.logs\.contacts"):
         read_readings(data_file("simulated/pad-objects.csv").path, label="kind")
+
+
+@pytest.mark.parametrize("given", [[0, 1], np.array([0, 5], dtype=np.uint8), [0, 1.5]])
+def test_whole_numbers_are_forces(given):
+    found = PadReadings(("e",), [[0.1], [0.2]], given).labels
+    assert found.dtype == np.float64
+    assert found.tolist() == [float(x) for x in given]
+
+
+def test_strings_of_a_table_of_objects_are_kinds():
+    kinds = np.array(["point", "line"], dtype=object)
+    assert PadReadings(("e",), [[0.1], [0.2]], kinds).labels.tolist() == ["point", "line"]
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ([True, False], "kinds as strings, or forces as numbers, got 'bool'"),
+        ([1j, 2j], "got 'complex128'"),
+        (["point", " "], "a kind each, got 'an empty one'"),
+    ],
+)
+def test_labels_that_are_neither_kinds_nor_forces_are_refused(given, message):
+    with pytest.raises(InvalidInputError, match=message):
+        PadReadings(("e",), [[0.1], [0.2]], given)
+
+
+def test_groups_go_with_their_readings():
+    mine = PadReadings(("e",), [[0.1], [0.2], [0.3]], [1, 2, 3], [7, 7, 8])
+    assert mine.groups.tolist() == ["7", "7", "8"]
+    assert mine.take([2, 0]).groups.tolist() == ["8", "7"]
+    with pytest.raises(InvalidInputError, match="groups"):
+        PadReadings(("e",), [[0.1], [0.2]], [1, 2], [7])
+
+
+def test_group_that_is_no_column_is_refused(file):
+    with pytest.raises(DataFileError, match="expected columns press"):
+        read_readings(file(GOOD), label="kind", group="press")

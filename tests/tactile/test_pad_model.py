@@ -151,3 +151,41 @@ def test_file_that_is_no_model_is_refused(text, tmp_path):
         load(path)
     with pytest.raises(DataFileError, match="expected a file"):
         load(tmp_path / "none.json")
+
+
+def test_whole_forces_are_fitted():
+    mine = PadReadings(("layer",), [[0.2], [0.9], [1.6], [2.3]], [0, 1, 2, 5])
+    assert PadModel(ForceSettings(bandwidth=0.01)).fit(mine).predict([[0.9]]) == pytest.approx([1])
+    assert 0 <= PadModel(ForceSettings()).fit(mine).predict([[1.0]])[0] <= 5
+
+
+def test_whole_presses_are_left_out_to_choose_the_bandwidth(tmp_path):
+    rng = np.random.default_rng(0)
+    forces = np.repeat(np.linspace(0, 5, 12), 6)
+    volts = (np.repeat(np.linspace(0.1, 4, 12) + 0.1 * rng.normal(size=12), 6))[:, None]
+    volts = volts + 1e-3 * rng.normal(size=volts.shape)
+    groups = np.repeat(np.arange(12), 6)
+    alone = PadModel(ForceSettings()).fit(PadReadings(("v",), volts, forces))
+    mine = PadModel(ForceSettings()).fit(PadReadings(("v",), volts, forces, groups))
+    width = [model.estimator[-1].bandwidth_ for model in (alone, mine)]
+    # Samples of one press tell each other's force: a bandwidth that is next to none seems best.
+    assert width[1] > 3 * width[0]
+    save(mine, tmp_path / "mine.json")
+    loaded = load(tmp_path / "mine.json")
+    assert loaded.readings.groups.tolist() == mine.readings.groups.tolist()
+    assert loaded.estimator[-1].bandwidth_ == width[1]
+
+
+def test_file_without_groups_is_read(tmp_path):
+    path = tmp_path / "mine.json"
+    save(PadModel(ForceSettings()).fit(forces_of()), path)
+    record = json.loads(path.read_text())
+    del record["groups"]
+    path.write_text(json.dumps(record))
+    assert load(path).readings.groups is None
+
+
+def test_forces_of_one_group_are_refused():
+    mine = PadReadings(("v",), [[0.1], [0.2]], [1.0, 2.0], ["a", "a"])
+    with pytest.raises(InvalidInputError, match="two groups"):
+        PadModel(ForceSettings()).fit(mine)

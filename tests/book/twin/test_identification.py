@@ -45,7 +45,7 @@ def test_ludwick_responses_are_those_of_single_fingers():
 def test_second_order_identification_is_that_of_one_record():
     found = identify_second_order(TIME, PRESSURE, ANGLE)
     for k in range(len(TESTS)):
-        known = identify(TIME, PRESSURE[k], ANGLE[k], initial_input=0.0).system
+        known = identify(TIME, PRESSURE[k], ANGLE[k], initial_input=0.0, dead_time=0.0).system
         # Both stop where a step gains 1e-10 of the sum of squares, or 1e-12.
         own = [getattr(found, name)[k] for name in vars(known)]
         assert own == pytest.approx(list(vars(known).values()), rel=1e-4)
