@@ -9,6 +9,7 @@ class InvalidInputError(SoftgripError, ValueError):
     """A value given by the caller is outside what is valid."""
 
     def __init__(self, name: str, *, expected: str, got: object) -> None:
+        self.expected, self.got = expected, got
         super().__init__(f"{name}: expected {expected}, got {got!r}")
 
 

@@ -27,7 +27,7 @@ from softgrip.control.designs import NOISE
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.minimum_time import farthest
 from softgrip.dynamics.second_order import full_state_space
-from softgrip.logs.gaps import intervals
+from softgrip.logs.gaps import intervals, period_of
 from softgrip.logs.pump import pump_of
 from softgrip.logs.pushes import prior, reference_noise
 from softgrip.logs.reader import kept_log, read_log
@@ -122,8 +122,8 @@ def figure_4_a() -> Figure:
     _draw_capacity(first, push.time, angle, seen, push.estimated.capacity_std, gain)
     log = read_log(hold)
     flow = pump_of(hold, log).displacement * log["command"]
-    model = ElastanceModel(log.header.period, noise, prior(push.capacity))
-    steps = intervals(log["time"], log.header.period)
+    model = ElastanceModel(period_of(log), noise, prior(push.capacity))
+    steps = intervals(log["time"], period_of(log))
     held = estimate(log["pressure"], flow, log["angle"], model, steps=steps)
     _draw_capacity(second, held.time, log["angle"], held.capacity, held.capacity_std, gain)
     first.set(title="pushing", xlabel="time (s)", ylabel="capacity (mL/MPa)", ylim=(0, 2600))

@@ -161,8 +161,8 @@ def exhibit(title: str) -> Exhibit:
     raise UnknownNameError("figure or table", title, [found.title for found in EXHIBITS.values()])
 
 
-def with_logs(item: Exhibit, logs: Sequence[Path | str]) -> Exhibit:
-    """Return an exhibit made from other logs, of which it then has the provenance.
+def with_logs(item: Exhibit, logs: Sequence[Path | str] | Path | str) -> Exhibit:
+    """Return an exhibit made from another log or logs, of which it then has the provenance.
 
     It says what the reader of logs mended in them, and where rows are missing.
 
@@ -170,6 +170,8 @@ def with_logs(item: Exhibit, logs: Sequence[Path | str]) -> Exhibit:
         InvalidInputError: If the exhibit is not made from logs, or no log is given.
         DataFileError: If a log cannot be read.
     """
+    if isinstance(logs, str | Path):
+        logs = [logs]
     if "logs" not in signature(item.make).parameters or not logs:
         raise InvalidInputError("logs", expected=f"none for {item.title}", got=[*map(str, logs)])
     paths = tuple(Path(log) for log in logs)

@@ -28,13 +28,15 @@ from numpy.typing import NDArray
 
 from softgrip.arrays import Floats
 from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.logs.gaps import period_of
 from softgrip.logs.reader import read_log
-from softgrip.logs.schema import KNOWN_UNITS, PAD_CHANNELS, Log
+from softgrip.logs.schema import MORE_COLUMNS, PAD_CHANNELS, Log
+from softgrip.quantities import in_si
 from softgrip.tactile.contact_pose import FELT
 from softgrip.tactile.contacts import ELEMENTS, KINDS, Contacts
 from softgrip.tactile.own_pad import PadReadings
 
-TRUTH = {"contact_x": "m", "contact_y": "m", "contact_angle": "rad"}
+TRUTH = {name: MORE_COLUMNS[name] for name in ("contact_x", "contact_y", "contact_angle")}
 """Columns that a simulated log may have beside those of the set-up: middle of the contact, angle of
 a line (else 0). The command is then the contact force."""
 REST, PRESS, WEIGHT, CONTACT = "rest", "press: element ", "weight: ", "contact"
@@ -63,10 +65,10 @@ def weight_of(words: str) -> float:
     0.2
     """
     try:
-        number, unit = words.removeprefix(WEIGHT).split()
-        return float(number) * (1.0 if unit == "N" else KNOWN_UNITS[unit, "N"])
-    except (KeyError, ValueError):
-        raise InvalidInputError("weight", expected="such as 'weight: 20 gf'", got=words) from None
+        return in_si("weight", words.removeprefix(WEIGHT), "N")
+    except InvalidInputError as error:
+        expected = f"such as 'weight: 20 gf', {error.expected}"
+        raise InvalidInputError("weight", expected=expected, got=words) from None
 
 
 def _known(words: str) -> bool:
@@ -103,7 +105,7 @@ class _PadLog:
         Raises:
             DataFileError: If none are, or a channel is at the end of the converter's range.
         """
-        count = max(1, round(HELD / self.log.header.period))
+        count = max(1, round(HELD / period_of(self.log)))
         if len(rows) >= count:
             windows = sliding_window_view(self.volts[rows], count, axis=0)
             still = np.ptp(windows, axis=-1).max(axis=-1) <= STILL

@@ -29,11 +29,11 @@ def column(name: str, finger: int) -> str:
 
 
 def fingers_of(log: Log, name: str = "angle") -> Floats:
-    """Return the columns of all fingers of a log, shape (fingers, N)."""
+    """Return the columns of all fingers of a log, shape (fingers, N); none of them is (0, N)."""
     found: list[Floats] = []
     while column(name, len(found)) in log.columns:
         found.append(log[column(name, len(found))])
-    return np.array(found)
+    return np.array(found).reshape(len(found), log["time"].size)
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class GripperLogs:
         time: s, shape (N,), evenly sampled.
         commands: Motor speed held until each time, rad/s, shape (runs, N).
         angles: rad, shape (runs, fingers, N).
-        references: rad, shape (fingers, N), or (0,) in open loop.
+        references: rad, shape (fingers, N), or (0, N) in open loop.
         events: Of the first run: (time in s, words).
     """
 
@@ -57,7 +57,7 @@ class GripperLogs:
     @property
     def period(self) -> float:
         """Sampling period, s."""
-        return float(self.time[1] - self.time[0])
+        return float((self.time[-1] - self.time[0]) / (self.time.size - 1))
 
     @property
     def motor_angle(self) -> Floats:

@@ -1,18 +1,19 @@
-"""Where rows of a log are missing: its time column against the period of its header.
+"""The clock of a log: its time column, against the period that its header states.
 
-Telemetry gets lost, and a log then goes on after a gap. Whatever sums, differs or filters a log
-must go by its times; what needs even samples bridges a short gap and refuses a long one.
+Telemetry gets lost, and a log then goes on after a gap; a row comes too early, or a clock is slow.
+Whatever sums, differs or filters a log must go by its times; what needs even samples takes them
+from an `EvenClock`, which bridges a short gap, and refuses a long one.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from softgrip.arrays import Floats
-from softgrip.errors import DataFileError
+from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.logs.schema import Log, LogHeader
 
 LATE = 1.5
@@ -21,8 +22,13 @@ by half a period: what is late by less is late, not lost."""
 PERIOD_WITHIN = 0.02
 """Of the header's period: how far the mean interval without gaps may be from it. A resonator is
 good to 0.5 %."""
+EARLY = 0.5
+"""Periods from a row to the next, below which one of them is not of the clock."""
+EVEN = 0.1
+"""Of a period: what a row may be off an even clock and still count as on it. Between two rows a
+straight line stands for them, and a mean of two has less noise than a row."""
 TICK = 1e-3
-"""s: a board's clock counts whole milliseconds."""
+"""s: a board's clock counts whole milliseconds, but none whose period is not many of them."""
 LEAST_WHOLE = 0.1
 """Share of the intervals that must be no gaps. A host that is too busy may leave out more than half
 of the rows; but where there is a gap after every row, it is the header that is wrong."""
@@ -83,6 +89,29 @@ def find_gaps(time: ArrayLike, period: float) -> tuple[Gap, ...]:
     )
 
 
+def check_even(time: Floats) -> None:
+    """Refuse times, s, shape (N,), that are not evenly apart; there must be two or more.
+
+    Raises:
+        InvalidInputError: If they are fewer, some are missing, or one is more than `EVEN` of the
+            median interval off an even clock.
+    """
+    if time.size < 2:
+        raise InvalidInputError("time", expected="two samples or more", got=time.size)
+    period = float(np.median(np.diff(time)))
+    if not period > 0:
+        raise InvalidInputError("time", expected="times that increase", got=time)
+    if gaps := find_gaps(time, period):
+        raise InvalidInputError("time", expected="even samples", got=places(gaps))
+    even = np.linspace(time[0], time[-1], time.size)
+    off = float(np.abs(time - even).max())
+    # Between neighbours, so that both ends of an interval may be off.
+    if off > 2 * EVEN * period:
+        raise InvalidInputError(
+            "time", expected=f"even samples, {period:g} s apart", got=f"one {off:.3g} s off"
+        )
+
+
 def check_period(path: Path | str, header: LogHeader, time: Floats) -> None:
     """Refuse rows that are another time apart than their header says.
 
@@ -95,19 +124,59 @@ def check_period(path: Path | str, header: LogHeader, time: Floats) -> None:
     found = np.diff(time)
     whole = found[found <= LATE * header.period]
     if whole.size >= LEAST_WHOLE * found.size:
-        most = PERIOD_WITHIN * header.period + TICK / np.sqrt(whole.size)
+        tick = min(TICK, EVEN * header.period)
+        most = PERIOD_WITHIN * header.period + tick / np.sqrt(whole.size)
         if abs(float(whole.mean()) - header.period) <= most:
             return
     raise DataFileError(
         path,
-        expected=f"rows {header.period:g} s apart, the period of the header",
+        expected=f"rows {header.period:g} s apart, the period of the header (in s)",
         got=f"a median of {float(np.median(found)):g} s",
     )
 
 
 def gaps_of(log: Log) -> tuple[Gap, ...]:
     """Return where rows of a log are missing; nowhere in one that no clock gave."""
-    return find_gaps(log["time"], log.header.period) if log.header.clocked else ()
+    return find_gaps(log["time"], period_of(log)) if log.header.clocked else ()
+
+
+def period_of(log: Log) -> float:
+    """Return the sampling period of a log's times, s.
+
+    It is the mean interval without gaps; what the header states where that keeps step with it from
+    the first row to the last, or where no clock gives the rows.
+    """
+    stated, found = log.header.period, np.diff(log["time"])
+    whole = found[(found > EARLY * stated) & (found <= LATE * stated)]
+    if not log.header.clocked or whole.size == 0:
+        return stated
+    mean = float(whole.mean())
+    return stated if abs(mean - stated) * whole.size < EVEN * stated else mean
+
+
+def uneven(log: Log) -> str:
+    """Return one sentence on times that are off an even clock; an empty one if none is."""
+    clock = even_clock(log)
+    if clock.even or not log.header.clocked:
+        return ""
+    off = float(np.abs(clock.at - clock.number).max()) * clock.period
+    return (
+        f"times are up to {off:.3g} s off an even clock of {clock.period:.6g} s: what needs even "
+        "samples has them on straight lines"
+    )
+
+
+def crowded(log: Log) -> str:
+    """Return one sentence on rows that come early after the one before; an empty one if none."""
+    steps = intervals(log["time"], log.header.period)
+    rows = np.flatnonzero(steps < EARLY) if log.header.clocked else np.array([], np.intp)
+    if not rows.size:
+        return ""
+    first, more = int(rows[0]), f", and {rows.size - 1} more" if rows.size > 1 else ""
+    return (
+        f"row {first + 2} comes {steps[first] * log.header.period:.3g} s after the one before, "
+        f"where the period is {log.header.period:g} s{more}"
+    )
 
 
 def late_start(log: Log) -> str:
@@ -160,7 +229,7 @@ def refuse_gaps(path: Path | str, log: Log, why: str, *, above: float = 0.0) -> 
     Raises:
         DataFileError: If more is missing; it names the places.
     """
-    period = log.header.period
+    period = period_of(log)
     if gaps := [gap for gap in gaps_of(log) if gap.missing * period > above + ROUNDING * period]:
         allowed = f"at most {above:g} s missing in one place" if above else "all rows"
         raise DataFileError(path, expected=f"{allowed}, for {why}", got=places(gaps))
@@ -168,34 +237,63 @@ def refuse_gaps(path: Path | str, log: Log, why: str, *, above: float = 0.0) -> 
 
 @dataclass(frozen=True)
 class EvenClock:
-    """A log's rows among those of an even clock.
+    """An even clock, and where a log's rows are on it.
 
     Attributes:
-        number: Of each row that is there, from 0, shape (N,).
+        period: s.
+        at: Place of each row, in periods from the first, shape (N,), rising.
     """
 
-    number: NDArray[np.intp]
+    period: float
+    at: Floats
 
     @property
-    def _all(self) -> NDArray[np.intp]:
-        return np.arange(self.number[-1] + 1)
+    def number(self) -> NDArray[np.intp]:
+        """The sample that is nearest to each row, from 0, shape (N,)."""
+        return np.rint(self.at).astype(np.intp)
+
+    @property
+    def _all(self) -> Floats:
+        return np.arange(self.number[-1] + 1.0)
+
+    @property
+    def even(self) -> bool:
+        """Whether each row is on the clock."""
+        return bool((self.at == self.number).all())
 
     @property
     def measured(self) -> NDArray[np.bool_]:
-        """Which rows of the even clock are there, shape (M,)."""
+        """Which samples of the even clock have a row within half a period, shape (M,)."""
         return np.isin(self._all, self.number)
 
     def lines(self, values: Floats) -> Floats:
-        """Return values with straight lines over the gaps, shape (M,)."""
-        return np.asarray(np.interp(self._all, self.number, values))
+        """Return values on straight lines from row to row, shape (M,)."""
+        return np.asarray(np.interp(self._all, self.at, values))
 
     def nearest(self, values: Floats) -> Floats:
-        """Return values that change, if they do, in the middle of a gap, shape (M,)."""
-        middles = (self.number[1:] + self.number[:-1]) / 2
+        """Return values of the nearest row, shape (M,): they change in the middle of a gap."""
+        middles = (self.at[1:] + self.at[:-1]) / 2
         return np.asarray(values[np.searchsorted(middles, self._all)])
 
 
 def even_clock(log: Log) -> EvenClock:
-    """Return where the rows of a log stand on an even clock."""
-    steps = np.maximum(np.rint(intervals(log["time"], log.header.period)), 1)
-    return EvenClock(np.concatenate([[0], np.cumsum(steps)]).astype(np.intp))
+    """Return where the rows of a log stand on an even clock of its own period."""
+    period = period_of(log)
+    at = (log["time"] - log["time"][0]) / period
+    number = np.rint(at)
+    # Of the rows near a sample the nearest one is on it, the others are where they are.
+    order = np.lexsort((np.abs(at - number), number))
+    first = np.concatenate([[True], np.diff(number[order]) > 0])
+    near = np.zeros(at.size, np.bool_)
+    near[order] = first
+    return EvenClock(period, np.where(near & (np.abs(at - number) < EVEN), number, at))
+
+
+def evened(log: Log) -> Log:
+    """Return a log whose rows are those of its even clock; the same one if they are already."""
+    clock = even_clock(log)
+    if clock.even:
+        return log
+    columns = {name: clock.lines(values) for name, values in log.columns.items()}
+    columns["time"] = log["time"][0] + clock.period * np.arange(columns["time"].size)
+    return replace(log, columns=columns)

@@ -6,7 +6,7 @@ import numpy as np
 
 from softgrip.arrays import Floats
 from softgrip.errors import DataFileError
-from softgrip.logs.gaps import even_clock, gaps_of, intervals, places, refuse_late_start
+from softgrip.logs.gaps import even_clock, gaps_of, intervals, period_of, places, refuse_late_start
 from softgrip.logs.schema import Log
 from softgrip.pump.flow import Pump
 
@@ -70,8 +70,9 @@ def swept_volume(path: Path | str, log: Log, flow: Floats) -> Floats:
             got=places(lost),
         )
     # Numbers of periods, which are exactly 1 in an even log.
-    steps = np.concatenate([[1.0], intervals(log["time"], log.header.period)])
-    return np.asarray(np.cumsum(flow * steps) * log.header.period)
+    period = period_of(log)
+    steps = np.concatenate([[1.0], intervals(log["time"], period)])
+    return np.asarray(np.cumsum(flow * steps) * period)
 
 
 def even_push(path: Path | str, log: Log, swept: Floats, below: float) -> tuple[Floats, Floats]:

@@ -9,7 +9,7 @@ from scipy.optimize import least_squares
 from softgrip.arrays import Floats
 from softgrip.errors import DataFileError
 from softgrip.kept import Kept
-from softgrip.logs.gaps import intervals
+from softgrip.logs.gaps import intervals, period_of
 from softgrip.logs.pump import check_start, even_push, pump_of, swept_volume
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import Log
@@ -90,8 +90,8 @@ def measure_noise() -> NoiseEstimate:
     log = read_log(path)
     flow = pump_of(path, log).displacement * log["command"]
     capacity = _fit_capacity(path, log, swept_volume(path, log, flow))
-    model = ElastanceModel(log.header.period, FIRST_GUESS, prior(capacity))
-    steps = intervals(log["time"], log.header.period)
+    model = ElastanceModel(period_of(log), FIRST_GUESS, prior(capacity))
+    steps = intervals(log["time"], period_of(log))
     return estimate_noise(log["pressure"], flow, log["angle"], model, steps=steps)
 
 
@@ -135,7 +135,7 @@ def compare(
     """
     log = read_log(path)
     pump = pump_of(Path(path), log)
-    time, measured = log["time"], log["pressure"]
+    time, measured, period = log["time"], log["pressure"], period_of(log)
     if not (measured.min() < below and measured.max() > HIGH):
         raise DataFileError(
             path,
@@ -143,16 +143,16 @@ def compare(
             got=f"{measured.min() / MPa:.3f} to {measured.max() / MPa:.3f} MPa",
         )
     flow = pump.displacement * log["command"]
-    swept, steps = swept_volume(path, log, flow), intervals(time, log.header.period)
+    swept, steps = swept_volume(path, log, flow), intervals(time, period)
     capacity = _fit_capacity(path, log, swept, below)
     growth = _fit_growth(swept, measured, capacity)
     levels = reference_noise() if noise is None else noise
-    model = ElastanceModel(log.header.period, levels, prior(capacity))
+    model = ElastanceModel(period, levels, prior(capacity))
     estimated = estimate(measured, flow, log["angle"], model, steps=steps)
     # What holds at a sample counts until the next one; over a gap, straight from one to the other.
     held, beyond = estimated.elastance[:-1], np.maximum(steps - 1, 0.0) / 2
     over = steps * held + beyond * np.diff(estimated.elastance)
-    rises = flow[:-1] * log.header.period * over
+    rises = flow[:-1] * period * over
     return PressureComparison(
         time,
         measured,

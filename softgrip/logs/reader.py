@@ -1,160 +1,213 @@
 """Reading a log of any back end: what is safely mended is mended and said, the rest is refused."""
 
-import re
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import cast
 
 import numpy as np
 
+from softgrip.arrays import Floats
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.logs.gaps import check_period, gaps_of, late_start, places
-from softgrip.logs.schema import EVENT, KNOWN_UNITS, SCHEMA, Log, LogHeader, SetUp
+from softgrip.logs.gaps import check_period, crowded, gaps_of, late_start, places, uneven
+from softgrip.logs.mapping import LogMapping, mapped, mapping_beside
+from softgrip.logs.schema import EVENT, SCHEMA, SET_UPS, Log, LogHeader, SetUp, known_unit
 from softgrip.provenance import Provenance, data_file
+from softgrip.quantities import convert, is_unit, si_unit
+from softgrip.text_table import TextTable, read_table
 
-_NAME = re.compile(r"^(?P<name>[^\[\]]+) \[(?P<unit>[^\[\]]+)\]$")
-
-
-def _header(path: Path, lines: list[str]) -> tuple[LogHeader, int]:
-    """Return the header and the number of its lines."""
-    keys: dict[str, str] = {}
-    for line in lines:
-        if not line.startswith("#"):
-            break
-        key, colon, value = line[1:].partition(":")
-        if not colon or key.strip() in keys:
-            raise DataFileError(
-                path, expected="'# key: value', each key once", got=repr(line), line=len(keys) + 1
-            )
-        keys[key.strip()] = value.strip()
-    count = len(keys)
-    if keys.get("schema") != SCHEMA:
-        raise DataFileError(
-            path, expected=f"schema {SCHEMA!r} in the header", got=repr(keys.get("schema"))
-        )
-    del keys["schema"]
-    try:
-        own = ("source", "back_end", "board", "firmware", "calibration", "seed")
-        words = {name: keys.pop(name) for name in own}
-        provenance, period = Provenance(keys.pop("provenance")), float(keys.pop("period"))
-        set_up = cast(SetUp, keys.pop("set_up", "gripper"))  # LogHeader refuses another one
-        header = LogHeader(provenance, period=period, set_up=set_up, **words, notes=keys)
-        return header, count
-    except KeyError as error:
-        raise DataFileError(
-            path, expected=f"{error.args[0]!r} in the header", got="none", line=count
-        ) from None
-    except (InvalidInputError, ValueError) as error:
-        raise DataFileError(path, expected="a valid header", got=str(error), line=count) from None
+ELSEWHERE = "another program"
+"""Back end of a log without our header."""
 
 
-def _columns(
-    path: Path, text: str, line: int, columns: Mapping[str, str]
-) -> tuple[list[str], list[float], list[str]]:
-    """Return the names of the columns, factors into their units, and what was converted.
+def read_log(path: Path | str, *, columns: Mapping[str, str] | None = None) -> Log:
+    """Read a log: one of ours, or of any other program.
 
-    Args:
-        path, text, line: The line of names, and where it stands.
-        columns: Those that must be there, with their units.
-    """
-    cells = text.split(",")
-    if cells[-1] != EVENT:
-        raise DataFileError(path, expected=f"the last column {EVENT!r}", got=cells[-1], line=line)
-    names, factors, repairs = [], [], []
-    for cell in cells[:-1]:
-        found = _NAME.match(cell)
-        if found is None:
-            raise DataFileError(path, expected="'name [unit]'", got=repr(cell), line=line)
-        name, unit = found["name"], found["unit"]
-        wanted = columns.get(name, unit)
-        factor = 1.0 if unit == wanted else KNOWN_UNITS.get((unit, wanted))
-        if factor is None:
-            raise DataFileError(path, expected=f"{name} in {wanted}", got=unit, line=line)
-        if unit != wanted:
-            repairs.append(f"{name} was converted from {unit} to {wanted}")
-        names.append(name)
-        factors.append(factor)
-    missing = [name for name in columns if name not in names]
-    if missing or len(set(names)) < len(names):
-        raise DataFileError(
-            path,
-            expected=f"the columns {', '.join(columns)}, once each",
-            got=f"no {', '.join(missing)}" if missing else "one twice",
-            line=line,
-        )
-    return names, factors, repairs
-
-
-def read_log(path: Path | str) -> Log:
-    """Read a log.
+    A log of another program has a column of times, and others with their units in the names, in a
+    row below them, or in `columns`. They keep their names or get those that are told: by `columns`,
+    or by a TOML of the log's name beside it, see `softgrip.logs.mapping`. What has no unit is left
+    out. Each value comes in SI.
 
     Mended, and said in `Log.repairs`: a cut last line is left out, as is a last row with a value
-    that is not a number; a row written twice counts once; a known other unit is converted. Missing
-    rows are not put back, but said there too, with their place; so is a start later than a run's.
+    that is not a number; a row written twice counts once; another unit is converted. Missing rows
+    are not put back, but said there too, with their place; so are rows that come too early, and a
+    start later than a run's.
 
     Args:
         path: Of the log.
+        columns: Heading or name in the file by name of ours: ``{"pressure": "P [psi]"}``.
 
     Raises:
-        DataFileError: If a column is missing, a unit unknown, a row of another width, a value
-            elsewhere not a finite number, if time stands or runs back, or if the rows are another
-            time apart than the header says. It names the file and, where known, the line.
+        DataFileError: If a column is missing, a unit unknown or of another dimension, a row of
+            another width, a value elsewhere not a finite number, if time stands or runs back, or if
+            the rows are another time apart than the header says. It names the file and, where
+            known, the line.
     """
     file = Path(path)
+    told = mapping_beside(file) if columns is None else LogMapping(columns)
+    table = read_table(file, **told.text)
+    keys = _keys(table)
+    chosen = _chosen(table, told, strict=bool(keys))
+    raw = {name: table.numbers(at, missing=True) for name, (at, _) in chosen.items()}
+    rows, repairs = _whole_rows(table, chosen, raw)
+    if not told.columns:
+        taken = {at for at, _ in chosen.values()}
+        left = [k for k, name in enumerate(table.names) if k not in taken and name != EVENT]
+        repairs += [f"{table.headings[k]!r} was left out: it has no known unit" for k in left]
+    time = _in_si(table, "time", chosen["time"][1], "s", raw["time"][rows])
+    header = _header(table, keys) if keys else _guessed(file, told, time)
+    if missing := [name for name in header.columns if keys and name not in chosen]:
+        raise table.refusal(
+            f"the columns {', '.join(header.columns)}, once each", f"no {', '.join(missing)}"
+        )
+    values = {}
+    for name, (_, unit) in chosen.items():
+        wanted = header.unit_of(name) or _si_unit(table, name, unit)
+        values[name] = _in_si(table, name, unit, wanted, raw[name][rows])
+        if unit != wanted:
+            repairs.append(f"{name} was converted from {unit} to {wanted}")
+    _check_time(table, values["time"], [table.lines[k] for k in rows])
+    if keys:
+        check_period(file, header, values["time"])
+    log = Log(header, values, _events(table, told, values["time"], rows), (), file)
+    found = filter(None, (late_start(log), places(gaps_of(log)), crowded(log), uneven(log)))
+    return replace(log, repairs=(*repairs, *found))
+
+
+def _whole_rows(
+    table: TextTable, chosen: Mapping[str, tuple[int, str]], raw: Mapping[str, Floats]
+) -> tuple[list[int], list[str]]:
+    """Return the rows that count, and what was left out."""
+    rows, repairs = [*range(len(table.rows))], list(table.notes)
+    if not table.ended:
+        repairs.append(f"the cut last line, {table.lines[rows.pop()]}, was left out")
+    if rows and not all(np.isfinite(values[rows[-1]]) for values in raw.values()):
+        last = table.lines[rows.pop()]
+        repairs.append(f"the last line, {last}, was left out: not all of it is finite")
+    doubled = [k for k in rows[1:] if table.rows[k] == table.rows[k - 1]]
+    repairs += [f"line {table.lines[k]}, the same as the one before, was left out" for k in doubled]
+    rows = [k for k in rows if k not in set(doubled)]
+    for name, values in raw.items():
+        for k in rows:
+            if not np.isfinite(values[k]):
+                got = repr(table.rows[k][chosen[name][0]])
+                raise table.refusal(f"a finite number under {name}", got, table.lines[k])
+    if not rows:
+        raise table.refusal("rows under the names", "none that is whole")
+    return rows, repairs
+
+
+def _keys(table: TextTable) -> dict[str, str]:
+    """Return the keys and values of a header; none if it is not ours."""
+    keys: dict[str, str] = {}
+    lines = [(n, text) for n, text in enumerate(table.head, start=1) if text.startswith("#")]
+    if not any(text.lstrip("# ").startswith("schema:") for _, text in lines):
+        return keys
+    for number, text in lines:
+        key, colon, value = text[1:].partition(":")
+        if not colon or key.strip() in keys:
+            raise table.refusal("'# key: value', each key once", repr(text), number)
+        keys[key.strip()] = value.strip()
+    return keys
+
+
+def _header(table: TextTable, keys: Mapping[str, str]) -> LogHeader:
+    """Return the header that a log of ours has, and check that all its columns are there."""
+    left, line = dict(keys), len(table.head)
+    if (schema := left.pop("schema")) != SCHEMA:
+        raise table.refusal(f"schema {SCHEMA!r} in the header", repr(schema), line)
     try:
-        text = file.read_bytes().decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise DataFileError(file, expected="UTF-8 text", got=str(error)) from None
-    # A file that was on a Windows machine has two characters at the end of each line.
-    lines = text.replace("\r\n", "\n").split("\n")
-    cut = lines.pop()
-    header, line = _header(file, lines)
-    if line >= len(lines):
-        raise DataFileError(file, expected="a line of column names", got="the end", line=line + 1)
-    names, factors, repairs = _columns(file, lines[line], line + 1, header.columns)
-    if cut:
-        repairs.append(f"the cut last line, {len(lines) + 1}, was left out")
-    rows: list[list[float]] = []
-    events: list[tuple[float, str]] = []
-    clock = names.index("time")
-    before = ""
-    for number, row in enumerate(lines[line + 1 :], start=line + 2):
-        if row == before:
-            repairs.append(f"line {number}, the same as the one before, was left out")
-            continue
-        before = row
-        cells = row.split(",")
-        if len(cells) != len(names) + 1:
-            raise DataFileError(
-                file, expected=f"{len(names) + 1} cells", got=str(len(cells)), line=number
-            )
-        try:
-            values = [float(c) * f for c, f in zip(cells, factors, strict=False)]
-        except ValueError as error:
-            raise DataFileError(file, expected="numbers", got=str(error), line=number) from None
-        if not np.isfinite(values).all():
-            if number == len(lines):
-                repairs.append(f"the last line, {number}, was left out: not all of it is finite")
+        own = ("source", "back_end", "board", "firmware", "calibration", "seed")
+        words = {name: left.pop(name) for name in own}
+        provenance, period = Provenance(left.pop("provenance")), float(left.pop("period"))
+        set_up = cast(SetUp, left.pop("set_up", "gripper"))  # LogHeader refuses another one
+        header = LogHeader(provenance, period=period, set_up=set_up, **words, notes=left)
+    except KeyError as error:
+        raise table.refusal(f"{error.args[0]!r} in the header", "none", line) from None
+    except (InvalidInputError, ValueError) as error:
+        raise table.refusal("a valid header", str(error), line) from None
+    return header
+
+
+def _guessed(path: Path, told: LogMapping, time: Floats) -> LogHeader:
+    """Return a header for a log without one: its period is the median one of its rows."""
+    if time.size < 2:
+        raise DataFileError(path, expected="two rows or more", got=f"{time.size}")
+    words = {"source": path.name, "back_end": ELSEWHERE, **told.header}
+    own = {field.name for field in fields(LogHeader)} - {"provenance", "period", "notes"}
+    given = {name: words.pop(name) for name in own if name in words}
+    try:
+        provenance = Provenance(words.pop("provenance", "logged"))
+        # Times that stand or run back are refused after this, with their line.
+        period = abs(round(float(np.median(np.diff(time))), 9)) or 1.0
+        return LogHeader(provenance, period=period, notes=words, **given)  # type: ignore[arg-type]
+    except (InvalidInputError, ValueError) as error:
+        file = path.with_suffix(".toml")
+        raise DataFileError(file, expected="a valid header", got=str(error)) from None
+
+
+def _chosen(table: TextTable, told: LogMapping, *, strict: bool) -> dict[str, tuple[int, str]]:
+    """Return the columns that are read: number in the file and unit, by name."""
+    given = {name: mapped(table, name, own) for name, own in told.columns.items() if name != EVENT}
+    found = dict(given)
+    if strict or not given:
+        taken = {at for at, _ in given.values()}
+        for at, (name, unit) in enumerate(zip(table.names, table.units, strict=True)):
+            if at in taken or name in given or name == EVENT:
                 continue
-            raise DataFileError(file, expected="finite numbers", got=repr(row), line=number)
-        if rows and not values[clock] > rows[-1][clock]:
-            raise DataFileError(
-                file,
-                expected=f"a time above {rows[-1][clock]!r} s",
-                got=repr(values[clock]),
-                line=number,
-            )
-        rows.append(values)
-        if cells[-1]:
-            events.append((values[clock], cells[-1]))
-    table = np.array(rows, dtype=np.float64).reshape(-1, len(names))
-    check_period(file, header, table[:, clock])
-    log = Log(
-        header, {name: table[:, k] for k, name in enumerate(names)}, tuple(events), tuple(repairs)
-    )
-    missing = filter(None, (late_start(log), places(gaps_of(log))))
-    return replace(log, repairs=(*repairs, *missing))
+            if strict and not unit:
+                raise table.refusal("'name [unit]'", repr(table.headings[at]))
+            ours, known = (name, True) if strict else _our_name(name, unit)
+            if known and ours in found:
+                raise table.refusal(f"one column {ours!r}", "two")
+            if known:
+                found[ours] = at, unit
+    if "time" not in found:
+        raise table.refusal(
+            "a column 'time' with its unit, or one that is told to be it: "
+            'columns={"time": "t [ms]"}, or a TOML beside the log',
+            ", ".join(map(repr, table.headings)),
+        )
+    return found
+
+
+def _our_name(name: str, unit: str) -> tuple[str, bool]:
+    """Return the name of a column as a log of ours has it, and whether its unit can be read."""
+    own = name.casefold().replace(" ", "_")
+    ours = any(known_unit(own, columns) for columns in SET_UPS.values())
+    return (own, bool(unit)) if ours else (name, bool(unit) and is_unit(unit))
+
+
+def _events(
+    table: TextTable, told: LogMapping, time: Floats, rows: Sequence[int]
+) -> tuple[tuple[float, str], ...]:
+    """Return what is said of rows, with their times."""
+    if EVENT not in told.columns and EVENT not in table.names:
+        return ()
+    cells = table.cells(told.columns.get(EVENT, EVENT))
+    return tuple((float(t), cells[k]) for t, k in zip(time, rows, strict=True) if cells[k])
+
+
+def _in_si(table: TextTable, name: str, unit: str, wanted: str, values: Floats) -> Floats:
+    try:
+        return convert(values, unit, wanted)
+    except InvalidInputError as error:
+        raise table.refusal(f"{name} as {error.expected}", repr(unit)) from None
+
+
+def _si_unit(table: TextTable, name: str, unit: str) -> str:
+    try:
+        return si_unit(unit)
+    except InvalidInputError as error:
+        raise table.refusal(f"{name} in {error.expected}", repr(unit)) from None
+
+
+def _check_time(table: TextTable, time: Floats, lines: Sequence[int]) -> None:
+    """Refuse times that stand, or run back: rows that were mixed, or a clock that began anew."""
+    for k in np.flatnonzero(np.diff(time) <= 0).tolist():
+        before, after = float(time[k]), float(time[k + 1])
+        anew = " (a clock that begins anew is another log)" if after < before else ""
+        raise table.refusal(f"a time above {before!r} s{anew}", repr(after), lines[k + 1])
 
 
 def kept_log(name: str) -> Path:

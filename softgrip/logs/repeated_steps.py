@@ -7,14 +7,14 @@ from pathlib import Path
 import numpy as np
 
 from softgrip.arrays import Floats
-from softgrip.errors import DataFileError
-from softgrip.logs.gaps import refuse_gaps, refuse_late_start
+from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.logs.gaps import evened, refuse_gaps, refuse_late_start
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import Log
 
 
-def read_alike(paths: Sequence[Path | str]) -> list[Log]:
-    """Read logs that have the same times.
+def read_alike(paths: Sequence[Path | str] | Path | str) -> list[Log]:
+    """Read logs that have the same times; those between even ones on straight lines.
 
     None may have a gap or lack its start: what is made of runs is their mean at each time, their
     spectra, and models of a rest before the first sample that take input and output between two as
@@ -24,6 +24,10 @@ def read_alike(paths: Sequence[Path | str]) -> list[Log]:
         DataFileError: If a log cannot be read, has a gap, lacks its start, or has other times than
             the first.
     """
+    if isinstance(paths, str | Path):
+        paths = [paths]
+    if not paths:
+        raise InvalidInputError("paths", expected="one log or more", got="none")
     logs = [read_log(path) for path in paths]
     time = logs[0]["time"]
     for path, log in zip(paths, logs, strict=True):
@@ -31,7 +35,7 @@ def read_alike(paths: Sequence[Path | str]) -> list[Log]:
         refuse_gaps(path, log, "a mean of runs")
         if log["time"].shape != time.shape or not np.allclose(log["time"], time):
             raise DataFileError(path, expected=f"the times of {paths[0]}", got="other times")
-    return logs
+    return [evened(log) for log in logs]
 
 
 @dataclass(frozen=True)

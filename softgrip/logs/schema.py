@@ -3,14 +3,15 @@
 A log says its set-up: the gripper, which needs not be said, or the tactile pad of Chapter 2.
 """
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from pathlib import Path
 from typing import Literal, get_args
 
 from softgrip.arrays import Floats
-from softgrip.errors import InvalidInputError
+from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.provenance import Provenance
-from softgrip.units import DEG, GRAM_FORCE, MM, PSI, REV, MPa
 
 SCHEMA = "softgrip-log 1"
 
@@ -50,21 +51,23 @@ SET_UPS: Mapping[SetUp, Mapping[str, str]] = {
 EVENT = "event"
 """The last column: words on what happened, mostly empty."""
 
-KNOWN_UNITS: Mapping[tuple[str, str], float] = {
-    ("ms", "s"): 1e-3,
-    ("us", "s"): 1e-6,
-    ("deg", "rad"): DEG,
-    ("rev/s", "rad/s"): REV,
-    ("deg/s", "rad/s"): DEG,
-    ("kPa", "Pa"): 1e3,
-    ("MPa", "Pa"): MPa,
-    ("psi", "Pa"): PSI,
-    ("mm", "m"): MM,
-    ("mV", "V"): 1e-3,
-    ("mN", "N"): 1e-3,
-    ("gf", "N"): GRAM_FORCE,
+MORE_COLUMNS = {
+    "reference": "rad",
+    "flow": "m^3/s",
+    "torque": "N m",
+    "contact_x": "m",
+    "contact_y": "m",
+    "contact_angle": "rad",
 }
-"""Factors of the units that a reader converts, by (found, expected)."""
+"""Columns that a log may have beside those of its set-up, with their units."""
+
+_FINGER = re.compile(r"_\d+$")
+
+
+def known_unit(name: str, columns: Mapping[str, str]) -> str | None:
+    """Return the SI unit of a column beside or among some, of any finger; None if not known."""
+    known = {**MORE_COLUMNS, **columns}
+    return known.get(name) or known.get(_FINGER.sub("", name))
 
 
 @dataclass(frozen=True)
@@ -78,7 +81,8 @@ class LogHeader:
         board, firmware: Names and versions; "none" without a board.
         calibration: Name of the calibration of the sensors or of the rig.
         seed: Of chance; empty without.
-        period: Sampling period, s; for rows that no clock gives, the time between the first two.
+        period: Sampling period as stated, s; for rows that no clock gives, the time between the
+            first two. That of the rows is `softgrip.logs.gaps.period_of`.
         notes: More keys and values, of one line each.
         set_up: What was logged: gripper or pad.
     """
@@ -122,6 +126,15 @@ class LogHeader:
         """Columns that a log of this set-up has, with their units."""
         return SET_UPS[self.set_up]
 
+    def unit_of(self, name: str) -> str | None:
+        """Return the SI unit of a column, of any finger; None for one that is not known here.
+
+        >>> header = LogHeader(Provenance.SIMULATED, "an example", "simulated rig", 0.025)
+        >>> header.unit_of("angle_2"), header.unit_of("reference"), header.unit_of("mood")
+        ('rad', 'rad', None)
+        """
+        return known_unit(name, self.columns)
+
     def lines(self) -> dict[str, str]:
         """Return the header's keys and values in the order in which they are written."""
         # The logs that came before the pad do not say a set-up: they are the gripper's.
@@ -151,14 +164,18 @@ class Log:
         events: (time in s, words), in order.
         repairs: What the reader changed, or where rows are missing, one sentence each; empty if
             nothing.
+        path: Of its file, for errors.
     """
 
     header: LogHeader
     columns: Mapping[str, Floats]
     events: tuple[tuple[float, str], ...]
     repairs: tuple[str, ...]
+    path: Path
 
     def __getitem__(self, name: str) -> Floats:
         if name not in self.columns:
-            raise InvalidInputError("name", expected=f"one of {list(self.columns)}", got=name)
+            raise DataFileError(
+                self.path, expected=f"a column {name!r}", got=", ".join(map(repr, self.columns))
+            )
         return self.columns[name]

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats
 from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.logs.gaps import even_clock, find_gaps, places, refuse_gaps
+from softgrip.logs.gaps import check_even, even_clock, refuse_gaps
 from softgrip.logs.reader import read_log
 
 LONGEST = 0.25
@@ -77,12 +77,11 @@ def mean_edge(
             that of one whose both ends are.
 
     Raises:
-        InvalidInputError: If times are missing, there is no change or no such hold, or the
-            reference is a ramp.
+        InvalidInputError: If times are missing or uneven, there is no change or no such hold, or
+            the reference is a ramp.
     """
     t, r, y = (np.asarray(values, np.float64) for values in (time, reference, angle))
-    if gaps := find_gaps(t, float(np.median(np.diff(t)))):
-        raise InvalidInputError("time", expected="even samples", got=places(gaps))
+    check_even(t)
     at = np.flatnonzero(np.diff(r)) + 1
     if at.size == 0:
         raise InvalidInputError("reference", expected="a change", got="none")
@@ -122,7 +121,7 @@ def judge_staircase(path: Path | str) -> StaircaseResponse:
     reference = clock.nearest(log["reference"])
     try:
         since, share = mean_edge(time, reference, angle, measured=clock.measured)
-        delay = lag(reference, angle, log.header.period)
+        delay = lag(reference, angle, clock.period)
     except InvalidInputError as error:
         raise DataFileError(path, expected="a staircase", got=str(error)) from None
     return StaircaseResponse(

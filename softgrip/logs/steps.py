@@ -10,9 +10,10 @@ from scipy.ndimage import uniform_filter1d
 
 from softgrip.arrays import Floats, check_positive
 from softgrip.control.step_metrics import final_value, settling_time
-from softgrip.errors import DataFileError, InvalidInputError
-from softgrip.logs.gaps import even_clock, find_gaps, places, refuse_gaps, refuse_late_start
+from softgrip.errors import DataFileError
+from softgrip.logs.gaps import check_even, even_clock, period_of, refuse_gaps, refuse_late_start
 from softgrip.logs.reader import read_log
+from softgrip.logs.schema import Log
 from softgrip.units import DEG
 
 WINDOW = 0.5
@@ -98,12 +99,11 @@ def judge_step(
             these.
 
     Raises:
-        InvalidInputError: If the times do not increase, or samples are missing.
+        InvalidInputError: If the times do not increase or are uneven, or samples are missing.
     """
     t, raw = np.asarray(time, np.float64), np.asarray(angle, np.float64)
-    if gaps := find_gaps(t, float(np.median(np.diff(t)))):
-        raise InvalidInputError("time", expected="even samples", got=places(gaps))
-    y = smoothed(raw, float(t[1] - t[0]), window=window)
+    check_even(t)
+    y = smoothed(raw, float((t[-1] - t[0]) / (t.size - 1)), window=window)
     own = final_value(t, raw, window=END)
     middle = np.broadcast_to(target, own.shape) if about == "reference" else own
     tail = t >= t[-1] - END
@@ -127,6 +127,32 @@ def judge_step(
     )
 
 
+def refuse_short(path: Path | str, log: Log, *, window: float = WINDOW) -> None:
+    """Refuse a log of a step that is too short to have an end, or too slow to be averaged.
+
+    Args:
+        path, log: What is read.
+        window: Of the averaging, s.
+
+    Raises:
+        DataFileError: If it does not go on for longer than `END`, or has fewer than three rows in
+            a window.
+    """
+    time, period = log["time"], period_of(log)
+    if not np.ptp(time) > END:
+        raise DataFileError(
+            path,
+            expected=f"a step and more than {END:g} s after it, its end",
+            got=f"{np.ptp(time):g} s",
+        )
+    if window and period > window / 2:
+        raise DataFileError(
+            path,
+            expected=f"rows {window / 2:g} s apart or less, for {AVERAGING} over {window:g} s",
+            got=f"{period:g} s",
+        )
+
+
 def judge_step_log(
     path: Path | str,
     *,
@@ -144,11 +170,12 @@ def judge_step_log(
     Raises:
         DataFileError: If the log has no reference, its reference is no single step, rows are
             missing at the start of a step at time 0, or more than `BRIDGED` of the window in one
-            place.
+            place, or as of `refuse_short`.
     """
     log = read_log(path)
     if "reference" not in log.columns:
         raise DataFileError(path, expected="a column 'reference [rad]'", got=str([*log.columns]))
+    refuse_short(path, log, window=window)
     refuse_gaps(path, log, AVERAGING, above=BRIDGED * window)
     clock = even_clock(log)
     reference, time = clock.nearest(log["reference"]), clock.lines(log["time"])

@@ -40,9 +40,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return int(not any(candidate.answered for candidate in seen))
         if asked.command == "fit":
             return run_fit(asked)
-        bands = judge(asked.log, asked.experiment)
         for words in read_log(asked.log).repairs:
             print(f"note  {words}")
+        bands = judge(asked.log, asked.experiment)
         print(report(bands))
         return int(not all(band.passed for band in bands))
     except (SoftgripError, OSError) as error:

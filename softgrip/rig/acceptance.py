@@ -17,7 +17,7 @@ from softgrip.logs.fingers import column, fingers_of
 from softgrip.logs.gaps import EvenClock, even_clock, refuse_gaps, refuse_late_start
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import Log
-from softgrip.logs.steps import AVERAGING, BRIDGED, WINDOW, judge_step
+from softgrip.logs.steps import AVERAGING, BRIDGED, WINDOW, judge_step, refuse_short
 from softgrip.simulator.parameters import SensorParameters
 from softgrip.simulator.statics import FULL_PRESSURE
 from softgrip.units import DEG, MPa
@@ -72,16 +72,22 @@ class Band:
 
 
 def sensor_bands(log: Log) -> list[Band]:
-    """Judge what holds in any run: no sensor at an end of its scale, no pressure above 0.15 MPa."""
+    """Judge what holds in any run: no sensor at an end of its scale, no pressure above 0.15 MPa.
+
+    A log without counts tells nothing of the converter.
+    """
     largest = SensorParameters().largest_count
-    counts = np.concatenate([fingers_of(log, "angle_counts").ravel(), log["pressure_counts"]])
-    railed = 100 * float(np.mean((counts <= 0) | (counts >= largest)))
     pressure = float(log["pressure"].max()) / MPa
-    return [
-        Band("samples at an end of the converter", "own limit", 0, 0, "%", railed),
-        # Noise of the sensor may read a little above.
-        Band("largest pressure", "Figure 3.10", 0, 1.05 * FULL_PRESSURE / MPa, "MPa", pressure),
+    # Noise of the sensor may read a little above.
+    bands = [
+        Band("largest pressure", "Figure 3.10", 0, 1.05 * FULL_PRESSURE / MPa, "MPa", pressure)
     ]
+    counted = [values for name, values in log.columns.items() if "_counts" in name]
+    if not counted:
+        return bands
+    counts = np.concatenate(counted)
+    railed = 100 * float(np.mean((counts <= 0) | (counts >= largest)))
+    return [Band("samples at an end of the converter", "own limit", 0, 0, "%", railed), *bands]
 
 
 def finger_bands(log: Log, clock: EvenClock, finger: int, experiment: Experiment) -> list[Band]:
@@ -92,7 +98,7 @@ def finger_bands(log: Log, clock: EvenClock, finger: int, experiment: Experiment
         clock.lines(time), clock.lines(angle), target, about="own end", measured=clock.measured
     )
     # The averaging keeps a share 1/n of white noise in the mean that is taken away.
-    samples = 2 * round(WINDOW / log.header.period / 2) + 1
+    samples = 2 * round(WINDOW / clock.period / 2) + 1
     noise = float(step.noise) / sqrt(1 - 1 / samples) / DEG
     sensor = SensorParameters()
     count = sensor.angle_range / (sensor.high_count - sensor.low_count) / DEG
@@ -134,11 +140,17 @@ def judge(path: Path | str, experiment: Experiment) -> tuple[Band, ...]:
             "experiment", expected=f"one of {get_args(Experiment)}", got=experiment
         )
     log = read_log(path)
-    fingers = len(fingers_of(log))
-    references = fingers_of(log, "reference")
-    if len(references) != fingers or np.ptp(references, axis=1).any():
-        raise DataFileError(path, expected="a constant reference for each finger", got="none")
+    if log.header.set_up != "gripper":
+        raise DataFileError(path, expected="a log of the gripper", got=log.header.set_up)
+    fingers, references = len(fingers_of(log)), fingers_of(log, "reference")
+    if not fingers or len(references) != fingers or np.ptp(references, axis=1).any():
+        raise DataFileError(
+            path,
+            expected="an angle and a constant reference for each finger",
+            got=", ".join(log.columns),
+        )
     refuse_late_start(path, log, "the time of the step")
+    refuse_short(path, log)
     refuse_gaps(path, log, AVERAGING, above=BRIDGED * WINDOW)
     clock = even_clock(log)
     bands = sensor_bands(log)

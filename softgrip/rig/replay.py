@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from softgrip.board.errors import EndOfReplayError
 from softgrip.errors import DataFileError
 from softgrip.logs.fingers import fingers_of
-from softgrip.logs.gaps import gaps_of
+from softgrip.logs.gaps import gaps_of, period_of
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import LogHeader
 from softgrip.rig.interface import StandIn
@@ -41,7 +41,7 @@ class Replay(StandIn):
             raise DataFileError(path, expected="rows of a gripper", got=self.log.header.set_up)
         # What was recorded was permitted then: only the latch and the homing are kept here.
         super().__init__(f"replay of {path}", np.inf)
-        self.period, self.difference = self.log.header.period, 0.0
+        self.period, self.difference = period_of(self.log), 0.0
         self._angles = fingers_of(self.log)
         self._counts = fingers_of(self.log, "angle_counts").astype(np.int64)
         self.fingers, self._row, self._events = len(self._angles), 0, dict(self.log.events)

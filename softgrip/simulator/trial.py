@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from softgrip.arrays import Floats
 from softgrip.errors import DataFileError
 from softgrip.logs.fingers import column, fingers_of
-from softgrip.logs.gaps import TICK, even_clock, gaps_of
+from softgrip.logs.gaps import even_clock, gaps_of
 from softgrip.logs.pump import LONGEST, pump_of
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import Log
@@ -119,9 +119,8 @@ def read_trial(path: Path | str, *, clamped: bool = False, torque: float = 0.0) 
             path, expected="a channel that tells something", got="; ".join(dead.values())
         )
     _check_start(path, measured[0], believed[0])
-    number = even_clock(log).number[:rows]
-    time = log["time"][:rows]
-    period = _period(time, int(number[-1]), log.header.period)
+    clock, time = even_clock(log), log["time"][:rows]
+    number, period = clock.number[:rows], clock.period
     at = np.clip((time - time[0]) / period, 0, number[-1])
     whole = np.rint(at)
     at = np.where(np.abs(at - whole) < 1e-6, whole, at)
@@ -202,12 +201,6 @@ def _check_start(path: Path | str, pressure: Floats, believed: NDArray[np.bool_]
             "with the tube open)",
             got=f"column 'pressure': {start:.0f} Pa in the first rows",
         )
-
-
-def _period(time: Floats, samples: int, stated: float) -> float:
-    """Return the period of the clock by which a log's rows came, s."""
-    took = float(time[-1] - time[0])
-    return stated if abs(took - samples * stated) < 2 * TICK else took / samples
 
 
 def _step(values: Floats, counts: Floats) -> float:

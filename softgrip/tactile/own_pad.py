@@ -10,10 +10,9 @@ Rows of one press, or of one grasp, are alike: a column that numbers or names th
 Lines that start with ``#`` are comments. The pad may have any number of channels.
 """
 
-import csv
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
@@ -21,13 +20,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from softgrip.arrays import Floats, read_only
-from softgrip.errors import DataFileError, DependentRowsWarning, InvalidInputError
+from softgrip.errors import DependentRowsWarning, InvalidInputError
+from softgrip.quantities import convert
 from softgrip.tactile.channels import (
     near_equal,
     near_equal_by_chance,
     no_channels,
     order_of_alike,
 )
+from softgrip.text_table import TextTable, read_table
 
 Labels = NDArray[np.str_] | Floats
 BESIDE = 0.5
@@ -58,7 +59,7 @@ class PadReadings:
     groups: NDArray[np.str_] | None = None
 
     def __post_init__(self) -> None:
-        voltages, labels = read_only(self.voltages), _labels(self.labels)
+        voltages, labels = read_only(self.voltages), _checked(self.labels)
         if not self.channels or len(set(self.channels)) < len(self.channels):
             raise InvalidInputError(
                 "channels", expected="one or more different names", got=self.channels
@@ -93,7 +94,7 @@ class PadReadings:
         return type(self)(self.channels, self.voltages[index], self.labels[index], groups)
 
 
-def _labels(given: Labels) -> Labels:
+def _checked(given: Labels) -> Labels:
     """Return labels as strings or floats."""
     labels: NDArray[Any] = np.asarray(given)
     if labels.dtype.kind == "O":  # as of a table of pandas
@@ -117,77 +118,69 @@ def read_readings(
     group: str | None = None,
     unit: float | None = None,
 ) -> PadReadings:
-    """Read a CSV of voltages and labels.
+    """Read a table of voltages and labels, as of `softgrip.text_table`.
+
+    Columns that name no unit are in V; a label that names one is a force.
 
     Args:
-        path: Of the file; its first line that is no comment names the columns.
+        path: Of the file.
         label: The column of kinds or weights.
-        channels: The columns of voltages, V; all others than label and group if none are named. A
+        channels: The columns of voltages; all others than label and group if none are named. A
             column that is constant, rises steadily, or has a clock's name is then refused: it may
             be one, but who reads must say so.
         group: The column of what each row is a sample of, such as its press or its grasp.
-        unit: Newtons of one unit of the label, such as ``softgrip.units.GRAM_FORCE``; labels are
-            strings without it.
+        unit: Newtons of one unit of the label, such as ``softgrip.units.GRAM_FORCE``, if its column
+            names none; labels are strings without any.
 
     Raises:
         DataFileError: If there is no such file or column, a row has more or fewer cells than there
-            are columns, a cell is no finite number, or a column that nobody named is no channel;
-            names the line.
+            are columns, a unit is none of a voltage or force, a cell is no finite number, a label
+            or group is empty, or a column that nobody named is no channel; names the line.
 
     Warns:
         DependentRowsWarning: If rows are near-equal, or most like those beside them, and no group
             says what they are samples of.
     """
-    file = Path(path)
-    if not file.is_file():
-        raise DataFileError(file, expected="a file", got="none")
-    with file.open(encoding="utf-8", newline="") as stream:
-        lines = [
-            (number, row)
-            for number, row in enumerate(csv.reader(stream), start=1)
-            if row and not row[0].startswith("#")
-        ]
-    if len(lines) < 2:
-        raise DataFileError(file, expected="column names and readings", got=f"{len(lines)} lines")
-    (first, names), rows = lines[0], lines[1:]
-    chosen = tuple(channels) or tuple(name for name in names if name not in (label, group))
-    wanted = (*chosen, label) if group is None else (*chosen, label, group)
-    if missing := [name for name in wanted if name not in names]:
-        hint = "; a log is read by softgrip.logs.contacts" if names[-1] == "event" else ""
-        raise DataFileError(
-            file, expected=f"columns {', '.join(missing)}", got=", ".join(names) + hint, line=first
-        )
-    for number, row in rows:
-        if len(row) != len(names):
-            raise DataFileError(
-                file, expected=f"{len(names)} cells", got=f"{len(row)}", line=number
-            )
-    columns = [names.index(name) for name in chosen]
-    voltages = [[_number(file, n, row[k], names[k]) for k in columns] for n, row in rows]
-    at = names.index(label)
-    labels = (
-        np.array([row[at].strip() for _, row in rows])
-        if unit is None
-        else unit * np.array([_number(file, n, row[at], label) for n, row in rows])
-    )
-    found = PadReadings(chosen, np.array(voltages), labels)
-    columns_of = dict(zip(chosen, found.voltages.T, strict=True))
-    others = {} if channels else no_channels(columns_of, labels)
-    if others:
-        named = [name for name in chosen if name not in others]
-        raise DataFileError(
-            file,
-            expected=f"channels of a pad; if {', '.join(others)} is one, name all: "
-            f"channels={chosen}, else channels={tuple(named)}, and group= for what rows are "
-            "samples of",
-            got="; ".join(f"{name}: {reason}" for name, reason in others.items()),
-            line=first,
-        )
+    table = read_table(path)
+    if label not in table.names and "event" in table.names:
+        got = f"{', '.join(table.names)}; a log is read by softgrip.logs.contacts"
+        raise table.refusal(f"a column {label!r}", got)
+    at = table.column(label)
+    by = None if group is None else table.column(group)
+    others = [k for k in range(len(table.names)) if k not in (at, by)]
+    chosen = [table.column(name) for name in channels] or others
+    names = tuple(table.names[k] for k in chosen)
+    labels = _labels(table, at, unit)
+    if not channels:
+        _check_channels(table, chosen, labels)
+    voltages = np.stack([_volts(table, k) for k in chosen], axis=1) if chosen else np.empty((0, 0))
+    groups = None if by is None else np.array(_filled(table, by, "a group"))
+    found = PadReadings(names, voltages, labels, groups)
     if group is None:
-        _warn_of_dependence(file, found)
-        return found
-    at = names.index(group)
-    return replace(found, groups=np.array([row[at].strip() for _, row in rows]))
+        _warn_of_dependence(table.path, found)
+    return found
+
+
+def _check_channels(table: TextTable, chosen: Sequence[int], labels: Labels) -> None:
+    """Refuse columns that nobody named and that are no channels."""
+    names = [table.names[k] for k in chosen]
+    found = no_channels({table.names[k]: table.numbers(k) for k in chosen}, labels)
+    if found:
+        rest = tuple(name for name in names if name not in found)
+        raise table.refusal(
+            f"channels of a pad; if {', '.join(found)} is one, name all: channels={tuple(names)}, "
+            f"else channels={rest}, and group= for what rows are samples of",
+            "; ".join(f"{name}: {reason}" for name, reason in found.items()),
+        )
+
+
+def _filled(table: TextTable, at: int, what: str) -> tuple[str, ...]:
+    """Return the words of a column, none of them empty."""
+    cells = table.cells(at)
+    for line, cell in zip(table.lines, cells, strict=True):
+        if not cell:
+            raise table.refusal(f"{what} under {table.names[at]}", "an empty cell", line)
+    return cells
 
 
 def _warn_of_dependence(file: Path, readings: PadReadings) -> None:
@@ -209,13 +202,24 @@ def _warn_of_dependence(file: Path, readings: PadReadings) -> None:
     )
 
 
-def _number(file: Path, line: int, cell: str, column: str) -> float:
+def _volts(table: TextTable, at: int) -> Floats:
+    values, unit = table.numbers(at), table.units[at]
+    return _converted(table, at, values, unit, "V") if unit else values
+
+
+def _labels(table: TextTable, at: int, unit: float | None) -> Labels:
+    """Return kinds, or forces in N."""
+    cells, own = _filled(table, at, "a label"), table.units[at]
+    if not own:
+        return np.array(cells) if unit is None else unit * table.numbers(at)
+    forces = _converted(table, at, table.numbers(at), own, "N")
+    if unit is not None and not np.isclose(float(convert(1.0, own, "N")), unit):
+        raise table.refusal(f"a label in units of {unit:g} N", f"{table.headings[at]!r}")
+    return forces
+
+
+def _converted(table: TextTable, at: int, values: Floats, unit: str, wanted: str) -> Floats:
     try:
-        value = float(cell)
-    except ValueError:
-        value = np.nan
-    if not np.isfinite(value):
-        raise DataFileError(
-            file, expected=f"a finite number under {column}", got=repr(cell), line=line
-        )
-    return value
+        return convert(values, unit, wanted)
+    except InvalidInputError as error:
+        raise table.refusal(f"{table.names[at]} as {error.expected}", repr(unit)) from None

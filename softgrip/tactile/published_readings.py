@@ -6,6 +6,7 @@ replaced. The file has no licence, so it is not part of this package: it is only
 published, or from a reader's own copy.
 """
 
+import csv
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
@@ -15,6 +16,8 @@ import numpy as np
 from softgrip.arrays import Floats, read_only
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.published import PublishedFiles
+from softgrip.text_cells import Row, rows_of, text_of
+from softgrip.text_numbers import number
 
 FOLDER_VARIABLE = "SOFTGRIP_AUTHOR_DIR"
 """Environment variable that names a folder of the file; unset or empty for the network."""
@@ -74,13 +77,16 @@ def parse(path: Path) -> ForceReadings:
     """Read a file of three rows: signals, forces in N, how many readings each level has.
 
     Raises:
-        DataFileError: If the third row does not count the runs of equal force in the second: rows
-            were mixed up or cut.
+        DataFileError: If there are other rows, a cell is no number, or the third row does not count
+            the runs of equal force in the second: rows were mixed up or cut.
     """
-    signal, force, counts = (
-        [float(cell) for cell in line.split(",") if cell.strip()]
-        for line in path.read_text(encoding="utf-8").splitlines()
-    )
+    rows = [(line, [number(cell, ".") for cell in row if cell]) for line, row in _rows(path)]
+    for line, row in rows:
+        if not np.isfinite(row).all():
+            raise DataFileError(path, expected="finite numbers", got="another cell", line=line)
+    if len(rows) != 3:
+        raise DataFileError(path, expected="three rows of numbers", got=f"{len(rows)}")
+    signal, force, counts = (row for _, row in rows)
     runs = [len([*run]) for _, run in groupby(force)]
     if runs != counts or len(signal) != len(force):
         raise DataFileError(
@@ -89,6 +95,13 @@ def parse(path: Path) -> ForceReadings:
             got=f"{len(signal)}, {counts}",
         )
     return ForceReadings(np.array(signal), np.array(force))
+
+
+def _rows(path: Path) -> list[Row]:
+    try:
+        return rows_of(text_of(path), ",")
+    except csv.Error as error:
+        raise DataFileError(path, expected="cells parted by commas", got=str(error)) from None
 
 
 def statement() -> str:

@@ -158,17 +158,22 @@ def test_lines_of_another_system_are_read(path):
     ("change", "words", "from_end"),
     [
         (lambda x: [s.replace("angle [rad]", "angel [rad]") for s in x], "no angle", 5),
-        (lambda x: [s.replace("[Pa]", "[bar]") for s in x], "pressure in Pa", 5),
-        (lambda x: [s.replace(",event", ",note") for s in x], "'event', got note", 5),
-        (lambda x: x[:-6], "a line of column names", 5),
+        (lambda x: [s.replace("[Pa]", "[mm]") for s in x], "pressure as a pressure: Pa, hPa", 5),
+        (lambda x: [s.replace(",event", ",note") for s in x], "'name [unit]', got 'note'", 5),
+        (lambda x: [*x[:-6], *x[-5:]], "a number in line 11, before any name", None),
+        (lambda x: x[:-5], "rows with as many cells and a number in each", None),
         (lambda x: [*x[:-2], x[-1], x[-2]], "a time above 0.1 s", 0),
-        (lambda x: [*x[:-2], x[-2].replace("0.1,", "nan,", 1), x[-1]], "finite numbers", 1),
-        (lambda x: [*x[:-2], x[-2].replace("0.1,", "x,", 1), x[-1]], "numbers", 1),
+        (
+            lambda x: [*x[:-2], x[-2].replace("0.1,", "nan,", 1), x[-1]],
+            "a finite number under angle",
+            1,
+        ),
+        (lambda x: [*x[:-2], x[-2].replace("0.1,", "x,", 1), x[-1]], "number under angle", 1),
         (lambda x: [*x[:-2], "1,2\n", x[-1]], "7 cells", 1),
         (lambda x: [s.replace("softgrip-log 1", "softgrip-log 9") for s in x], "schema", None),
         (lambda x: [s for s in x if "period" not in s], "'period' in the header", None),
         (lambda x: [s.replace("logged", "found") for s in x], "valid header", None),
-        (lambda x: x[:5], "in the header", None),
+        (lambda x: x[:5], "no line with a number", None),
     ],
 )
 def test_damage_is_refused_with_file_and_line(path, change, words, from_end):
@@ -235,7 +240,7 @@ def test_names_of_columns_hold_no_comment(tmp_path):
 
 
 def test_columns_that_are_not_there_are_named(path):
-    with pytest.raises(InvalidInputError, match="angle_counts"):
+    with pytest.raises(DataFileError, match=r"log\.csv: expected a column 'force'.*angle_counts"):
         read_log(path)["force"]
     assert list(read_log(path).columns) == list(COLUMNS)
 

@@ -35,6 +35,20 @@ def test_rows_that_do_not_fit_each_other_are_refused(file, place, row):
         parse(file(*rows))
 
 
+@pytest.mark.parametrize(
+    ("rows", "words"),
+    [
+        (ROWS[:2], "three rows of numbers, got 2"),
+        ((*ROWS, "1"), "three rows of numbers, got 4"),
+        (("1.5,x,3", *ROWS[1:]), "line 1: expected finite numbers"),
+        (('1.5,"2', *ROWS[1:]), "cells parted by commas"),
+    ],
+)
+def test_other_files_are_refused(file, rows, words):
+    with pytest.raises(DataFileError, match=words):
+        parse(file(*rows))
+
+
 def test_arrays_of_two_lengths_are_refused():
     with pytest.raises(InvalidInputError, match="one shape"):
         ForceReadings(np.zeros(3), np.zeros(2))

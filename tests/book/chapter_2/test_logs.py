@@ -71,7 +71,7 @@ def changed(tmp_path, old, new, count=-1):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("# set_up: pad\n", "", "command in rad/s, got N"),
+        ("# set_up: pad\n", "", "the columns time, command, pressure_counts"),
         ("# set_up: pad", "# set_up: hand", "set_up"),
         ("element_8_counts [count]", "element_9_counts [count]", "element_8_counts"),
         ("contact_angle [rad]", "contact_slope [rad]", "contact_angle"),
@@ -106,7 +106,7 @@ def with_counts(tmp_path, counts, rows):
     ("counts", "rows", "message"),
     [
         ("0", [5], "element_1_counts between 1 and 1023, got 0 at .* s: saturated, or a broken"),
-        ("nan", [5], "finite numbers"),
+        ("nan", [5], "a finite number under element_1_counts"),
         ("1023", range(9), "1023 in 8 of 80 contacts or less, got in 9: saturated"),
     ],
 )

@@ -1,0 +1,72 @@
+"""What a log is said to serve is what the analyses take."""
+
+import pytest
+
+from softgrip.errors import DataFileError
+from softgrip.logs.__main__ import main
+from softgrip.logs.check import USES, describe
+from softgrip.logs.contacts import read_contacts
+from softgrip.logs.fingers import read_runs
+from softgrip.logs.pushes import compare
+from softgrip.logs.repeated_steps import read_step_test
+from softgrip.logs.staircase import judge_staircase
+from softgrip.logs.steps import judge_step_log
+from softgrip.provenance import data_file
+
+CALLS = {
+    "the response to a step": judge_step_log,
+    "the response to a staircase": judge_staircase,
+    "the capacity of pump and finger": compare,
+    "the finger's dynamics": lambda path: read_step_test([path]),
+    "the dynamics of two fingers": lambda path: read_runs([path]),
+    "contacts of a pad": read_contacts,
+}
+
+
+@pytest.mark.parametrize(
+    "name", ["push-a", "staircase", "lqr-fast", "gripper-open-1", "pad-objects"]
+)
+def test_what_a_log_lacks_the_analysis_refuses(name):
+    path = data_file(f"simulated/{name}.csv").path
+    told = describe(path)
+    for use in USES:
+        lacking = any(line.startswith("lacks") and use.what in line for line in told.splitlines())
+        if lacking and use.what in CALLS:
+            with pytest.raises(DataFileError):
+                CALLS[use.what](path)
+        assert lacking or f"serves  {use.what}" in told or use.set_up not in told
+
+
+@pytest.mark.parametrize(
+    ("name", "what"),
+    [
+        ("lqr-fast", "the response to a step"),
+        ("staircase", "the response to a staircase"),
+        ("push-a", "the capacity of pump and finger"),
+        ("step-60-1", "the finger's dynamics"),
+        ("gripper-open-1", "the dynamics of two fingers"),
+        ("pad-objects", "contacts of a pad"),
+    ],
+)
+def test_what_a_log_serves_the_analysis_takes(name, what):
+    path = data_file(f"simulated/{name}.csv").path
+    assert f"serves  {what}" in describe(path)
+    CALLS[what](path)
+
+
+def test_the_command_tells_of_each_log_and_ends_with_two_if_one_is_none(tmp_path, capsys):
+    path = tmp_path / "run.csv"
+    path.write_text("time [s],pressure [bar],what\n0,0.1,5\n0.1,0.1,6\n0.2,0.1,6\n0.4,0.1,7\n")
+    assert main(["check", str(path)]) == 0
+    said = capsys.readouterr().out
+    for words in (
+        "4 rows from 0 to 0.4 s, 0.1 s apart",
+        "note  'what' was left out: it has no known unit",
+        "note  1 row missing between 0.2 and 0.4 s",
+        "column  pressure: 10000 to 10000 Pa, never changes",
+        "lacks  the columns angle, reference, for the response to a step (Figure 4.5",
+        "area and lead of the pump in the header",
+    ):
+        assert words in said
+    assert main(["check", str(path), str(tmp_path / "none.csv")]) == 2
+    assert "none.csv: expected a file, got none" in capsys.readouterr().err
