@@ -19,6 +19,7 @@ from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
 from softgrip.kept import Kept
 from softgrip.materials import ludwick, tensile
+from softgrip.materials.bootstrap import block_bootstrap
 from softgrip.materials.table import table_5_1
 from softgrip.materials.tensile import TensileTest, up_to_peak
 from softgrip.provenance import Provenance
@@ -38,7 +39,7 @@ class Fitting:
             "engineering".
         loss: As for `softgrip.materials.ludwick.fit`.
         longest_strain: Engineering strain up to which the curve is used; never beyond its peak.
-        modulus: E "held" at the value of Table 5.1, or "free".
+        modulus: E "held", for the ten materials at the value of Table 5.1, or "free".
     """
 
     stress: Stress = "true"
@@ -55,45 +56,70 @@ def curve(test: TensileTest, fitting: Fitting) -> tuple[Floats, Floats]:
     return strain, stress * (1 + strain) if fitting.stress == "true" else stress
 
 
-def fit(test: TensileTest, fitting: Fitting) -> ludwick.LudwickFit:
-    """Fit the law to a test of one of the ten materials in the way that is named."""
-    held = table_5_1()[test.name].young_modulus if fitting.modulus == "held" else None
+def held_modulus(test: TensileTest) -> tuple[float, str]:
+    """Return the modulus that a fitting holds, Pa, and where it is from, in words.
+
+    That of Table 5.1 for its materials, by name. For another, the test's own engineering stress at
+    strain 1: the 100 % modulus of a data sheet, which the table's is.
+
+    Raises:
+        InvalidInputError: If the material is not in the table and the test does not reach strain 1.
+    """
+    if test.name in table_5_1():
+        return table_5_1()[test.name].young_modulus, "Table 5.1"
+    try:
+        return tensile.hundred_percent_modulus(test), "the stress of the test at strain 1"
+    except InvalidInputError:
+        raise InvalidInputError(
+            "young_modulus",
+            expected=f"one in Pa, as {test.name!r} is not in Table 5.1, or a test past strain 1",
+            got=f"none, strains {test.strain[0]:g} to {test.strain[-1]:g}",
+        ) from None
+
+
+def fit(
+    test: TensileTest, fitting: Fitting, *, young_modulus: float | None = None
+) -> ludwick.LudwickFit:
+    """Fit the law to a test in the way that is named.
+
+    Args:
+        test: Of any material.
+        fitting: The way.
+        young_modulus: E to hold, Pa; None for `held_modulus`, if the way holds it at all.
+
+    Raises:
+        InvalidInputError: As of `held_modulus` and `softgrip.materials.ludwick.fit`.
+    """
+    held = _held(test, fitting, young_modulus)
     return ludwick.fit(*curve(test, fitting), young_modulus=held, loss=fitting.loss)
+
+
+def _held(test: TensileTest, fitting: Fitting, given: float | None) -> float | None:
+    if fitting.modulus == "free":
+        return None
+    return held_modulus(test)[0] if given is None else given
 
 
 def bootstrap_interval(
     test: TensileTest,
     fitting: Fitting,
     *,
+    young_modulus: float | None = None,
     confidence: float = 0.95,
     resamples: int = 200,
     seed: int = 0,
 ) -> tuple[float, float]:
-    """Return the percentile interval of n when the curve's rows are drawn again, in runs.
+    """Return the interval of n of `fit` by `block_bootstrap`, with its errors."""
+    held = _held(test, fitting, young_modulus)
 
-    The law is not the curve, so its residuals are neither independent nor of mean zero: whole rows
-    are drawn, in runs of about the square root of their number. The interval speaks of this one
-    specimen and this way of fitting; it knows nothing of other specimens or other ways.
+    def power(strain: Floats, stress: Floats) -> tuple[float]:
+        again = ludwick.fit(strain, stress, young_modulus=held, loss=fitting.loss)
+        return (again.fractional_power,)
 
-    Raises:
-        InvalidInputError: If `confidence` is not between 0 and 1.
-    """
-    if not 0 < confidence < 1:
-        raise InvalidInputError("confidence", expected="a number in (0, 1)", got=confidence)
-    strain, stress = curve(test, fitting)
-    held = table_5_1()[test.name].young_modulus if fitting.modulus == "held" else None
-    length = max(2, round(strain.size**0.5))
-    runs = -(-strain.size // length)
-    random = np.random.default_rng(seed)
-    powers = []
-    for _ in range(resamples):
-        # Runs go on from the end to the start: else both ends would be drawn too seldom.
-        starts = random.integers(0, strain.size, runs)
-        rows = (starts[:, None] + np.arange(length)).ravel() % strain.size
-        again = ludwick.fit(strain[rows], stress[rows], young_modulus=held, loss=fitting.loss)
-        powers.append(again.fractional_power)
-    low, high = np.quantile(powers, [(1 - confidence) / 2, (1 + confidence) / 2])
-    return float(low), float(high)
+    (interval,) = block_bootstrap(
+        *curve(test, fitting), power, confidence=confidence, resamples=resamples, seed=seed
+    )
+    return interval
 
 
 def grid() -> tuple[Fitting, ...]:
