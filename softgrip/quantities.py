@@ -221,6 +221,23 @@ def si_unit(unit: str, *, name: str = "unit") -> str:
 _WORDS = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 
 
+def fields_in_si(record: object, units: Mapping[str, str]) -> None:
+    """Put the fields of a frozen dataclass into SI, as its ``__post_init__`` does; see `in_si`.
+
+    Args:
+        record: The dataclass.
+        units: SI unit of each field, by its name; a field may be a tuple of quantities.
+
+    Raises:
+        InvalidInputError: As of `in_si`.
+    """
+    for name, unit in units.items():
+        given = getattr(record, name)
+        several = isinstance(given, tuple | list)
+        found = tuple(in_si(name, one, unit) for one in given) if several else None
+        object.__setattr__(record, name, found or in_si(name, given, unit))
+
+
 def in_si(name: str, value: object, wanted: str) -> float:
     """Return a quantity that a caller gives, in SI.
 

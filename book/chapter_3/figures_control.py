@@ -12,6 +12,7 @@ from book.chapter_4.identified_model import identified_model
 from book.companion.band import LABEL, shade
 from book.companion.choices import choice
 from book.companion.exhibit import figure, table
+from book.companion.own_logs import in_place
 from book.companion.simulated_logs import STEP_DURATION
 from book.companion.style import (
     BLUE,
@@ -37,7 +38,7 @@ from softgrip.control.minimum_time import largest_step, minimum_settling_time
 from softgrip.control.rig_controller import Tracking
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.second_order import full_state_space
-from softgrip.logs.reader import kept_log, read_log
+from softgrip.logs.reader import read_log
 from softgrip.logs.steps import StepResponse, judge_step, judge_step_log
 from softgrip.provenance import Provenance
 from softgrip.reads import remembered
@@ -77,13 +78,13 @@ P = np.logspace(0, 6, 37)
 
 @figure("3.12", Provenance.SIMULATED)
 def figure_3_12(logs: tuple[Path | str, ...] = ()) -> Figure:
-    """Draw both regulators on their models and on a rig; ``logs`` gives two of another rig."""
-    drawn = Figure(figsize=(WIDTH, 7.0))
-    panels = drawn.subplots(4, 1, sharex=True, height_ratios=(2, 1, 2, 1))
+    """Draw both regulators on their models and on a rig; ``logs`` gives those of another rig."""
+    paths = in_place(logs, LOGS)
+    drawn = Figure(figsize=(WIDTH, 3.5 * len(paths)))
+    panels = drawn.subplots(2 * len(paths), 1, sharex=True, height_ratios=(2, 1) * len(paths))
     model = identified_model()
-    paths = logs or tuple(kept_log(name) for name in LOGS)
-    titles = ("(a) printed weights", "(b) faster design")
-    for k, (path, design, title) in enumerate(zip(paths, ("printed", "fast"), titles, strict=True)):
+    places = ("printed", "(a) printed weights"), ("fast", "(b) faster design")
+    for k, (path, (design, title)) in enumerate(zip(paths, places, strict=False)):
         angle, command = panels[2 * k : 2 * k + 2]
         log = read_log(path)
         finger, weights = designed_on(design, model)
@@ -174,7 +175,7 @@ def least_time(step: float, band: float) -> float:
 
 @table("3.C", Provenance.SIMULATED)
 def table_3_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
-    """Tabulate settling times under each criterion; ``logs`` gives two of another rig."""
+    """Tabulate settling times under each criterion; ``logs`` gives those of another rig."""
     model = identified_model()
     limits = [settling_at_the_bound(Weights(), band) for band in criteria()]
     floors = [settling_floor(FINGER, Weights(), band) for band in criteria()]
@@ -186,9 +187,9 @@ def table_3_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
         ("p = 3e4, q2 = 0.03", "linear", *_linear(FASTER)),
         ("any controller", "5 rev/s", *(f"{x:.2f}" for x in least), "0"),
     ]
-    paths = logs or tuple(kept_log(name) for name in LOGS)
+    paths = in_place(logs, LOGS)
     names = (("printed weights", "printed"), ("faster design", "fast"))
-    for path, (words, design) in zip(paths, names, strict=True):
+    for path, (words, design) in zip(paths, names, strict=False):
         finger, weights = designed_on(design, model)
         own = limited_loop(
             finger, model.pump_gain, lqr_gain(finger, weights), step_size(), duration=STEP_DURATION

@@ -12,6 +12,7 @@ from book.chapter_4.pushed import pushed
 from book.companion.band import LABEL, shade
 from book.companion.claims import printed, printed_text
 from book.companion.exhibit import figure
+from book.companion.own_logs import in_place
 from book.companion.style import (
     GREY,
     LINEAR,
@@ -153,11 +154,12 @@ def _draw_capacity(axes: Any, time: Any, angle: Any, seen: Any, std: Any, gain: 
 
 @figure("4.5", Provenance.SIMULATED)
 def figure_4_5(logs: tuple[Path | str, ...] = ()) -> Figure:
-    """Draw both controllers on their models and on a rig; ``logs`` gives two of another rig."""
-    drawn, panels = sheet(5.2, 2, 1, sharex=True, sharey=True)
-    paths = logs or tuple(kept_log(name) for name in STEPS)
+    """Draw both controllers on their models and on a rig; ``logs`` gives those of another rig."""
+    paths = in_place(logs, STEPS)
+    drawn, rows = sheet(2.6 * len(paths), len(paths), 1, sharex=True, sharey=True, squeeze=False)
+    panels = rows[:, 0]
     titles = ("(a) designed on the finger alone", "(b) designed on finger and pump")
-    for axes, path, design, title in zip(panels, paths, ("actuator", "full"), titles, strict=True):
+    for axes, path, design, title in zip(panels, paths, ("actuator", "full"), titles, strict=False):
         if not logs:
             shade(axes, f"pid-{design}", MEASURED, label=LABEL)
         _draw_log(axes, path, lw=1)
@@ -166,7 +168,7 @@ def figure_4_5(logs: tuple[Path | str, ...] = ()) -> Figure:
             found.time, np.ravel(found.measured) / DEG, color=LUDWICK, ls="--", label="own model"
         )
         axes.set(title=title, ylabel="angle (deg)", xlim=(0, 15), ylim=(-5, None))
-    axes.set_xlabel("time (s)")
+    panels[-1].set_xlabel("time (s)")
     drawn.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return drawn
 
@@ -185,7 +187,7 @@ def figure_4_7(logs: tuple[Path | str, ...] = ()) -> Figure:
     drawn, axes = sheet(3.2)
     if not logs:
         shade(axes, "staircase", MEASURED, label=LABEL)
-    _draw_log(axes, (logs or (kept_log("staircase"),))[0], lw=None)
+    _draw_log(axes, in_place(logs, ("staircase",))[0], lw=None)
     axes.set(xlabel="time (s)", ylabel="angle (deg)")
     drawn.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return drawn

@@ -9,7 +9,8 @@ import pandas as pd
 from book.chapter_4.controllers import own_step
 from book.companion.choices import choice
 from book.companion.exhibit import table
-from softgrip.logs.reader import kept_log, read_log
+from book.companion.own_logs import in_place
+from softgrip.logs.reader import read_log
 from softgrip.logs.steps import judge_step_log
 from softgrip.provenance import Provenance, data_file
 from softgrip.pump.finger import Finger
@@ -113,11 +114,11 @@ def _interval(line: Line) -> str:
 
 @table("4.C", Provenance.SIMULATED)
 def table_4_c(logs: tuple[Path | str, ...] = ()) -> pd.DataFrame:
-    """Tabulate settling times of both controllers under each criterion; ``logs`` gives two."""
-    paths = logs or (kept_log("pid-actuator"), kept_log("pid-full"))
+    """Tabulate settling times of both controllers under each criterion; ``logs`` gives others."""
+    paths = in_place(logs, ("pid-actuator", "pid-full"))
     rows = []
     names = {"actuator": "finger alone (4.14)", "full": "finger and pump (4.15)"}
-    for (design, words), path in zip(names.items(), paths, strict=True):
+    for (design, words), path in zip(names.items(), paths, strict=False):
         rig = f"{read_log(path).header.provenance} rig"
         judged = judge_step_log(path, band=choice("pid_band"))
         for place, response in (("own model", own_step(design)), (rig, judged)):

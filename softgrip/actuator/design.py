@@ -11,6 +11,7 @@ from softgrip.arrays import Number, check_positive
 from softgrip.errors import InvalidInputError, SoftgripError
 from softgrip.materials.table import material
 from softgrip.plausible import ANGLE, DIMENSION, LENGTH, MASS, PRESSURE, YOUNG_MODULUS
+from softgrip.quantities import fields_in_si
 from softgrip.units import MM, MPa
 
 Range = tuple[float, float]
@@ -51,6 +52,7 @@ class Bounds:
     height: Range = (15 * MM, 25 * MM)
 
     def __post_init__(self) -> None:
+        fields_in_si(self, dict.fromkeys((*DIMENSIONS, "height"), "m"))
         for name in (*DIMENSIONS, "height"):
             low, high = getattr(self, name)
             if not (0 < low <= high and isfinite(high)):
@@ -86,6 +88,9 @@ class FrequencyBand:
     largest_mass: float = SCRIPT_MASS
 
     def __post_init__(self) -> None:
+        fields_in_si(
+            self, {"low": "rad/s", "high": "rad/s", "least_mass": "kg", "largest_mass": "kg"}
+        )
         check_positive(least_mass=self.least_mass, largest_mass=self.largest_mass, high=self.high)
         if not 0 <= self.low <= self.high:
             raise InvalidInputError(
@@ -96,6 +101,9 @@ class FrequencyBand:
 @dataclass(frozen=True)
 class DesignProblem:
     """The best section within bounds, Eq. (3.17); with a band of frequencies it is Eq. (3.20).
+
+    A number is in SI; words such as ``"20 kPa"``, or a quantity of `pint`, are put into it. So are
+    those of `Bounds` and of `FrequencyBand`.
 
     Attributes:
         pressure: P, Pa, > 0: held, as ``P' = 0`` says. Its value is not printed.
@@ -118,6 +126,11 @@ class DesignProblem:
     combined: Combined = "sum"
 
     def __post_init__(self) -> None:
+        fields_in_si(
+            self,
+            {"pressure": "Pa", "young_modulus": "Pa", "length": "m", "torque_scale": "N m",
+             "angle_scale": "rad"},
+        )  # fmt: skip
         check_positive(
             pressure=self.pressure,
             young_modulus=self.young_modulus,

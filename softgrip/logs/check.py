@@ -1,13 +1,18 @@
 """What a log holds, what it lacks, and which analyses and figures it can serve, in words."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from softgrip.errors import SoftgripError
 from softgrip.logs.gaps import gaps_of, late_start, period_of
+from softgrip.logs.pushes import compare
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import PAD_CHANNELS, Log, SetUp
+from softgrip.logs.staircase import judge_staircase
+from softgrip.logs.steps import judge_step_log
 
 PUMP = ("area", "lead")
 """Keys of a header that name the pump."""
@@ -26,6 +31,7 @@ class Use:
         start: Whether the first row must be that of the run.
         whole: Whether no row may be missing.
         set_up: Of the log.
+        attempt: What is tried with a log that lacks nothing: its rows may not serve all the same.
     """
 
     what: str
@@ -36,6 +42,7 @@ class Use:
     start: bool = True
     whole: bool = False
     set_up: SetUp = "gripper"
+    attempt: Callable[[Path | str], object] | None = None
 
     def lacks(self, log: Log) -> list[str]:
         """Return what a log lacks for it, in words."""
@@ -53,6 +60,7 @@ USES = (
     Use(
         "the response to a step", "softgrip.logs.steps.judge_step_log",
         ("angle", "reference"), (), ("Figure 4.5", "Table 3.C", "Table 4.C"),
+        attempt=judge_step_log,
     ),
     Use(
         "both regulators", "book.companion.show.show", ("command", "angle", "reference"), (),
@@ -61,10 +69,12 @@ USES = (
     Use(
         "the response to a staircase", "softgrip.logs.staircase.judge_staircase",
         ("angle", "reference"), (), ("Figure 4.7",), start=False,
+        attempt=judge_staircase,
     ),
     Use(
         "the capacity of pump and finger", "softgrip.logs.pushes.compare",
         ("command", "pressure", "angle"), PUMP, ("Figure 4.4",),
+        attempt=compare,
     ),
     Use(
         "the finger's dynamics", "softgrip.logs.repeated_steps.read_step_test",
@@ -76,7 +86,7 @@ USES = (
     ),
     Use(
         "acceptance against the printed numbers", "python -m softgrip.rig accept",
-        ("pressure", "angle", "reference"),
+        ("pressure", "angle", "reference"), attempt=judge_step_log,
     ),
     Use(
         "a simulated rig fitted to yours", "python -m softgrip.rig fit",
@@ -109,12 +119,22 @@ def describe(path: Path | str) -> str:
     for use in (use for use in USES if use.set_up == log.header.set_up):
         shown = f" ({', '.join(use.figures)})" if use.figures else ""
         lacks = use.lacks(log)
-        lines.append(
-            f"lacks  {', '.join(lacks)}, for {use.what}{shown}"
-            if lacks
-            else f"serves  {use.what}: {use.call}{shown}"
-        )
+        if lacks:
+            lines.append(f"lacks  {', '.join(lacks)}, for {use.what}{shown}")
+        elif refused := _refusal(use, path):
+            lines.append(f"cannot serve  {use.what}{shown}: {refused}")
+        else:
+            lines.append(f"serves  {use.what}: {use.call}{shown}")
     return "\n".join(lines)
+
+
+def _refusal(use: Use, path: Path | str) -> str:
+    try:
+        if use.attempt:
+            use.attempt(path)
+    except SoftgripError as error:
+        return str(error).removeprefix(f"{path}: ")
+    return ""
 
 
 def _span(log: Log, name: str) -> str:

@@ -1,5 +1,6 @@
 """Ludwick's law: stress proportional to a power of strain, and its fit to a tensile test."""
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, get_args
@@ -9,12 +10,18 @@ from numpy.typing import ArrayLike
 from scipy.optimize import minimize_scalar
 
 from softgrip.arrays import Floats, Value, check_positive, tensile_curve
-from softgrip.errors import InvalidInputError
+from softgrip.errors import FitWarning, InvalidInputError
+from softgrip.materials.toe import FEWEST, noise
 
 Loss = Literal["stress", "log", "strain"]
 
 EXPONENT_RANGE = (0.1, 10.0)
 """Exponents that are searched; those of elastomers in tension lie near 1 to 3."""
+REST = 2e-3
+"""Share of the largest strain within which a row is at strain 0, where the law has no stress."""
+PRELOAD, CHANCE = 0.01, 4.0
+"""Share of the largest stress, and standard deviations of the noise, above which one at strain 0 is
+neither: it bends each power towards 1."""
 
 
 @dataclass(frozen=True)
@@ -88,6 +95,10 @@ def fit(
         InvalidInputError: If the curve has fewer than 3 usable rows, is not finite, or has negative
             strains; if the loss is unknown; or if the best exponent is outside `EXPONENT_RANGE`.
 
+    Warns:
+        FitWarning: If the curve has a stress at strain 0, a preload; `tester.read_export` takes it
+            off.
+
     >>> e = np.linspace(0, 3, 50)
     >>> found = fit(e, 1e5 * e**1.6, loss="strain")
     >>> round(found.young_modulus), round(found.fractional_power, 6)
@@ -96,6 +107,7 @@ def fit(
     if loss not in get_args(Loss):
         raise InvalidInputError("loss", expected=f"one of {get_args(Loss)}", got=loss)
     e, s = tensile_curve(strain, stress, at_least=3)
+    _warn_of_preload(e, s)
     if loss != "stress":
         usable = (e > 0) & (s > 0)
         e, s = tensile_curve(e[usable], s[usable], at_least=3)
@@ -113,6 +125,20 @@ def fit(
     E = scale * factor
     rms = float(np.sqrt(np.mean((s - E * e**n) ** 2)))
     return LudwickFit(E, n, rms, loss, e.size)
+
+
+def _warn_of_preload(strain: Floats, stress: Floats) -> None:
+    rest = stress[strain <= REST * strain.max()]
+    if rest.size == 0 or strain.size < FEWEST:
+        return
+    level = abs(float(rest.mean()))
+    if level > max(PRELOAD * float(stress.max()), CHANCE * noise(stress)):
+        warnings.warn(
+            f"the curve begins at {level:.4g} Pa at strain 0, where Ludwick's law has none: a "
+            "preload changes its power, take it off first",
+            FitWarning,
+            stacklevel=3,
+        )
 
 
 def fit_power(x: Floats, y: Floats, *, free: bool) -> tuple[float, float]:

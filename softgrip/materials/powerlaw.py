@@ -13,6 +13,7 @@ from softgrip.errors import InvalidInputError
 from softgrip.materials.least_squares import Prediction, normal_equations, prediction_interval
 from softgrip.materials.table import fractional_powers, properties, table_5_1
 from softgrip.plausible import STRENGTH, VISCOSITY, YOUNG_MODULUS
+from softgrip.quantities import in_si
 from softgrip.units import MPa
 
 EXPONENTS = (1.0, 0.5, 0.5)
@@ -22,6 +23,7 @@ SCALES = (1 * MPa, 50.0, 10 * MPa)
 
 PROPERTIES = ("young_modulus", "mixed_viscosity", "tensile_strength")
 PLAUSIBLE = (YOUNG_MODULUS, VISCOSITY, STRENGTH)
+UNITS = ("Pa", "Pa s", "Pa")
 
 
 def predictors(E: ArrayLike, MV: ArrayLike, TS: ArrayLike) -> Floats:
@@ -110,9 +112,9 @@ class PowerOfNewMaterial:
 
 
 def predict_power(
-    young_modulus: float,
-    mixed_viscosity: float,
-    tensile_strength: float,
+    young_modulus: float | str,
+    mixed_viscosity: float | str,
+    tensile_strength: float | str,
     *,
     fit_intercept: bool = False,
     confidence: float = 0.95,
@@ -121,8 +123,8 @@ def predict_power(
 
     Args:
         young_modulus, mixed_viscosity, tensile_strength: E [Pa], MV [Pa s], TS [Pa] from the data
-            sheet, each > 0. The table's E is the stress at 100 % strain, which suppliers call the
-            100 % modulus.
+            sheet, each > 0; numbers in SI, words such as ``"20000 cP"``, or quantities of `pint`.
+            The table's E is the stress at 100 % strain, which suppliers call the 100 % modulus.
         fit_intercept: Whether to add the constant that Eq. (5.8) does not have.
         confidence: Of the interval for the n that a fit to a tensile test of the material would
             give.
@@ -135,7 +137,8 @@ def predict_power(
     >>> round(found.power.value, 2), found.extrapolates
     (2.37, ())
     """
-    new = (young_modulus, mixed_viscosity, tensile_strength)
+    given = zip(PROPERTIES, (young_modulus, mixed_viscosity, tensile_strength), UNITS, strict=True)
+    new = tuple(in_si(*one) for one in given)
     check_positive(**dict(zip(PROPERTIES, new, strict=True)))
     for range_, name, value in zip(PLAUSIBLE, PROPERTIES, new, strict=True):
         range_.check(name, value)

@@ -118,7 +118,8 @@ def read_rows(path: Path) -> Floats:
     start = next((i for i, row in enumerate(cells) if set(row) & set(COLUMNS)), None)
     if start is None:
         expected = f"a row of columns {';'.join(COLUMNS)}"
-        raise DataFileError(path, expected=expected, got="the end of the file", line=len(lines))
+        got = "the end of the file (other tests are read by softgrip.materials.tester.read_export)"
+        raise DataFileError(path, expected=expected, got=got, line=len(lines))
     if tuple(cells[start]) != COLUMNS:
         expected = f"columns {';'.join(COLUMNS)}"
         raise DataFileError(path, expected=expected, got=lines[start], line=start + 1)

@@ -8,12 +8,13 @@ from types import MappingProxyType
 from softgrip.arrays import Value, check_positive
 from softgrip.errors import UnknownNameError
 from softgrip.plausible import AREA, LEAD
+from softgrip.quantities import fields_in_si
 from softgrip.units import REV
 
 
 @dataclass(frozen=True)
 class Pump:
-    """A syringe on a screw.
+    """A syringe on a screw; words such as ``"8 mm"``, or quantities of `pint`, are put into SI.
 
     Attributes:
         area: Inside cross-section A of the syringe, m^2, > 0.
@@ -27,6 +28,7 @@ class Pump:
     lead: float
 
     def __post_init__(self) -> None:
+        fields_in_si(self, {"area": "m^2", "lead": "m"})
         check_positive(area=self.area, lead=self.lead)
         AREA.check("area", self.area)
         LEAD.check("lead", self.lead)

@@ -30,7 +30,10 @@ def test_what_a_log_lacks_the_analysis_refuses(name):
     path = data_file(f"simulated/{name}.csv").path
     told = describe(path)
     for use in USES:
-        lacking = any(line.startswith("lacks") and use.what in line for line in told.splitlines())
+        lacking = any(
+            line.startswith(("lacks", "cannot serve")) and use.what in line
+            for line in told.splitlines()
+        )
         if lacking and use.what in CALLS:
             with pytest.raises(DataFileError):
                 CALLS[use.what](path)
@@ -70,3 +73,11 @@ def test_the_command_tells_of_each_log_and_ends_with_two_if_one_is_none(tmp_path
         assert words in said
     assert main(["check", str(path), str(tmp_path / "none.csv")]) == 2
     assert "none.csv: expected a file, got none" in capsys.readouterr().err
+
+
+def test_a_step_that_ends_too_early_cannot_serve(tmp_path):
+    path = tmp_path / "run.csv"
+    rows = "".join(f"{0.05 * k:.2f},{min(k, 9)},9\n" for k in range(20))
+    path.write_text("time [s],angle [deg],reference [deg]\n" + rows)
+    words = "the response to a step (Figure 4.5, Table 3.C, Table 4.C): expected a step and more"
+    assert f"cannot serve  {words}" in describe(path)

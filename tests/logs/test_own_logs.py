@@ -2,9 +2,7 @@
 
 import csv
 import io
-import os
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,6 +20,7 @@ from softgrip.provenance import Provenance, data_file
 from softgrip.rig.__main__ import main
 from softgrip.rig.replay import Replay
 from softgrip.units import DEG
+from tests.conftest import CASES
 
 PERIOD, TARGET = 0.05, 1.0
 NAMES = ("time", "command", "pressure", "angle", "reference")
@@ -380,10 +379,7 @@ def test_a_damaged_log_is_read_or_refused_by_name(place, count, put, ours, tmp_p
         assert "run.csv" in str(error)  # noqa: PT017
 
 
-CASES = Path(os.environ.get("SOFTGRIP_CASES_DIR", "no such folder"))
-
-
-@pytest.mark.skipif(not CASES.is_dir(), reason="no cases in SOFTGRIP_CASES_DIR")
+@pytest.mark.skipif(not CASES.is_dir(), reason="needs the inputs: SOFTGRIP_CASES_DIR")
 @pytest.mark.parametrize("name", ["deg", "bom", "first-interval-3ms"])
 def test_kept_cases_are_as_their_twin(name):
     found, twin = figures(CASES / f"log-step-{name}.csv"), figures(CASES / "log-step-rad.csv")

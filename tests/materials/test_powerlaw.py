@@ -185,3 +185,8 @@ def test_constant_narrows_the_interval_little():
     without = predict_power(0.3e6, 15.0, 2.5e6).power
     with_constant = predict_power(0.3e6, 15.0, 2.5e6, fit_intercept=True).power
     assert 0.5 < (with_constant.high - with_constant.low) / (without.high - without.low) < 1.5
+
+
+def test_properties_may_be_given_with_their_units():
+    found = predict_power("340 kPa", "20000 cP", "550 psi").power.value
+    assert found == pytest.approx(predict_power(340e3, 20.0, 550 * 6894.757).power.value)

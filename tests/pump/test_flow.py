@@ -81,3 +81,10 @@ def test_bad_pump_is_refused(area, lead):
 def test_pump_in_other_units_is_refused_with_what_was_meant(area, lead, meant):
     with pytest.raises(InvalidInputError, match=meant):
         Pump(area, lead)
+
+
+def test_pump_may_be_given_with_its_units():
+    found = Pump("6.61 cm^2", "8 mm")
+    assert (found.area, found.lead) == pytest.approx((6.61e-4, 8e-3))
+    with pytest.raises(InvalidInputError, match=r"area: expected an area: m.2, .*got 'mm'"):
+        Pump("6.61 mm", "8 mm")

@@ -38,6 +38,14 @@ def test_page_without_logs_of_its_own_shows_those_of_the_book():
     assert show("Figure 4.7", logs=[]).exhibit.provenance is Provenance.SIMULATED
 
 
+@pytest.mark.parametrize("title", ["Figure 3.12", "Figure 4.5", "Table 3.C", "Table 4.C"])
+def test_one_log_has_the_first_place_and_three_are_refused(title):
+    step = data_folder() / "simulated" / "pid-full.csv"
+    assert make(with_logs(exhibit(title), str(step))).shown is not None
+    with pytest.raises(InvalidInputError, match="logs: expected 2 at most"):
+        make(with_logs(exhibit(title), [step] * 3))
+
+
 def test_figure_that_takes_no_logs_says_so(mine):
     with pytest.raises(InvalidInputError, match=r"none for Figure 4\.3"):
         with_logs(exhibit("Figure 4.3"), [mine])
