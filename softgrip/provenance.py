@@ -10,6 +10,7 @@ import csv
 import hashlib
 from dataclasses import dataclass
 from enum import StrEnum
+from io import StringIO
 from pathlib import Path
 
 from softgrip.errors import DataFileError, InvalidInputError
@@ -77,12 +78,11 @@ def describe(path: Path) -> DataFile:
     if not path.is_file():
         raise DataFileError(path, expected="a file", got="none")
     header: dict[str, str] = {}
-    with path.open(encoding="utf-8") as lines:
-        for line in lines:
-            if not line.startswith("#"):
-                break
-            key, _, value = line.lstrip("# ").partition(":")
-            header[key.strip()] = value.strip()
+    for line in _lines(path):
+        if not line.startswith("#"):
+            break
+        key, _, value = line.lstrip("# ").partition(":")
+        header[key.strip()] = value.strip()
     try:
         return DataFile(path, Provenance(header["provenance"]), header["source"])
     except (KeyError, ValueError) as error:
@@ -97,8 +97,14 @@ def describe(path: Path) -> DataFile:
 
 def cells(path: Path) -> list[list[str]]:
     """Read a CSV as strings, the columns' names first, without its lines that begin with ``#``."""
-    with path.open(encoding="utf-8", newline="") as lines:
-        return list(csv.reader(line for line in lines if not line.startswith("#")))
+    return list(csv.reader(line for line in _lines(path) if not line.startswith("#")))
+
+
+def _lines(path: Path) -> StringIO:
+    try:
+        return StringIO(path.read_text(encoding="utf-8-sig"))
+    except UnicodeDecodeError as error:
+        raise DataFileError(path, expected="text in UTF-8", got=str(error)) from None
 
 
 def data_rows(name: str) -> list[dict[str, str]]:

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from book.companion.exhibit import Exhibit
 from book.companion.style import style
+from softgrip.logs.reader import read_log
 from softgrip.provenance import DataFile, data_folder, describe
 from softgrip.reads import recorded
 
@@ -36,9 +37,15 @@ def make(exhibit: Exhibit) -> Made:
     seconds = perf_counter() - start
     logs = {log.resolve(): log for log in exhibit.logs}
     ours = data_folder().resolve()
-    named = [log for path, log in logs.items() if path in files]
-    named += sorted(path for path in files - set(logs) if path.is_relative_to(ours))
-    return Made(shown, seconds, tuple(describe(path) for path in named))
+    named = [_of_reader(log) for path, log in logs.items() if path in files]
+    kept = sorted(path for path in files - set(logs) if path.is_relative_to(ours))
+    return Made(shown, seconds, (*named, *map(describe, kept)))
+
+
+def _of_reader(log: Path) -> DataFile:
+    # What another program made states nothing of itself: the reader of logs knows what it is.
+    header = read_log(log).header
+    return DataFile(log, header.provenance, header.source)
 
 
 def _points(axes: Any) -> list[tuple[str, Any, Any]]:

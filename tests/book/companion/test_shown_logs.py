@@ -46,6 +46,18 @@ def test_one_log_has_the_first_place_and_three_are_refused(title):
         make(with_logs(exhibit(title), [step] * 3))
 
 
+def test_log_of_a_spreadsheet_is_shown(tmp_path):
+    path = tmp_path / "mine.csv"
+    rows = "".join(f"{40 * k};{min(k, 40)},0;40,0\n" for k in range(375))
+    path.write_text("Zeit [ms];Winkel [°];Soll [°]\n" + rows, encoding="latin-1")
+    told = '[columns]\ntime = "Zeit"\nangle = "Winkel"\nreference = "Soll"\n'
+    path.with_suffix(".toml").write_text(told)
+    for title in ("Figure 4.5", "Figure 4.7", "Table 4.C"):
+        shown = show(title, logs=path)
+        assert [(data.path, data.provenance) for data in shown.made.data[:1]] == [(path, "logged")]
+        assert "mine.csv (logged" in shown._repr_mimebundle_()["text/html"]
+
+
 def test_figure_that_takes_no_logs_says_so(mine):
     with pytest.raises(InvalidInputError, match=r"none for Figure 4\.3"):
         with_logs(exhibit("Figure 4.3"), [mine])
