@@ -149,16 +149,17 @@ def exhibit(title: str) -> Exhibit:
         title: Such as ``Figure 5.1``.
 
     Raises:
-        UnknownNameError: If there is none; the message lists those of the chapter.
+        UnknownNameError: If there is none; the message lists those of the chapter, or all.
     """
     kind, _, number = title.lower().partition(" ")
     chapter = number.partition(".")[0]
     if chapter in chapters():
         _register_chapter(chapter)
-    for found in EXHIBITS.values():
+    known = list(EXHIBITS.values()) if chapter in chapters() else exhibits()
+    for found in known:
         if (found.kind, found.number.lower()) == (kind, number):
             return found
-    raise UnknownNameError("figure or table", title, [found.title for found in EXHIBITS.values()])
+    raise UnknownNameError("figure or table", title, [found.title for found in known])
 
 
 def with_logs(item: Exhibit, logs: Sequence[Path | str] | Path | str) -> Exhibit:

@@ -4,8 +4,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from softgrip.errors import SoftgripError
 from softgrip.logs.gaps import gaps_of, late_start, period_of
 from softgrip.logs.pushes import compare
@@ -101,44 +99,117 @@ USES = (
 """What is made of logs here."""
 
 
-def describe(path: Path | str) -> str:
-    """Say what a log holds and what it can serve, in lines.
+@dataclass(frozen=True)
+class Service:
+    """Whether a log serves one of `USES`.
+
+    Attributes:
+        what, call, figures: As of `Use`.
+        why_not: What it lacks, or why its rows do not serve; empty where they do.
+    """
+
+    what: str
+    call: str
+    figures: tuple[str, ...]
+    why_not: str
+
+    def __str__(self) -> str:
+        shown = f" ({', '.join(self.figures)})" if self.figures else ""
+        if self.why_not:
+            return f"cannot serve  {self.what}{shown}: {self.why_not}"
+        return f"serves  {self.what}: {self.call}{shown}"
+
+
+@dataclass(frozen=True)
+class Span:
+    """What lies in a column: its least and largest value, in its unit."""
+
+    name: str
+    low: float
+    high: float
+    unit: str
+
+    def __str__(self) -> str:
+        still = ", never changes" if self.low == self.high else ""
+        return f"column  {self.name}: {self.low:.6g} to {self.high:.6g} {self.unit}{still}"
+
+
+@dataclass(frozen=True)
+class Contents:
+    """What a log holds and what it can serve; as text, in lines.
+
+    Attributes:
+        path: Of the log.
+        provenance, back_end: What made it.
+        rows: Their number.
+        begin, end, period: Time of the first and of the last row, and between rows, s; the period
+            is None for a single row.
+        notes: What was done to read it, one sentence each.
+        columns: All but the time.
+        services: What it was asked to serve.
+    """
+
+    path: str
+    provenance: str
+    back_end: str
+    rows: int
+    begin: float
+    end: float
+    period: float | None
+    notes: tuple[str, ...]
+    columns: tuple[Span, ...]
+    services: tuple[Service, ...]
+
+    def __str__(self) -> str:
+        rate = "" if self.period is None else f", {self.period:.6g} s apart"
+        return "\n".join(
+            [
+                f"{self.path}: {self.provenance}, {self.back_end}, {self.rows} rows "
+                f"from {self.begin:.6g} to {self.end:.6g} s{rate}",
+                *(f"note  {words}" for words in self.notes),
+                *map(str, self.columns),
+                *map(str, self.services),
+            ]
+        )
+
+
+def contents(path: Path | str) -> Contents:
+    """Look what a log holds and what it can serve.
 
     Raises:
         DataFileError: If it cannot be read, as of `read_log`.
     """
     log = read_log(path)
     time = log["time"]
-    rate = f", {period_of(log):.6g} s apart" if time.size > 1 else ""
-    lines = [
-        f"{path}: {log.header.provenance}, {log.header.back_end}, {time.size} rows "
-        f"from {time[0]:.6g} to {time[-1]:.6g} s{rate}",
-        *(f"note  {words}" for words in log.repairs),
-        *(_span(log, name) for name in log.columns if name != "time"),
-    ]
-    for use in (use for use in USES if use.set_up == log.header.set_up):
-        shown = f" ({', '.join(use.figures)})" if use.figures else ""
-        lacks = use.lacks(log)
-        if lacks:
-            lines.append(f"lacks  {', '.join(lacks)}, for {use.what}{shown}")
-        elif refused := _refusal(use, path):
-            lines.append(f"cannot serve  {use.what}{shown}: {refused}")
-        else:
-            lines.append(f"serves  {use.what}: {use.call}{shown}")
-    return "\n".join(lines)
+    return Contents(
+        str(path),
+        str(log.header.provenance),
+        log.header.back_end,
+        time.size,
+        float(time[0]),
+        float(time[-1]),
+        period_of(log) if time.size > 1 else None,
+        tuple(log.repairs),
+        tuple(_span(log, name) for name in log.columns if name != "time"),
+        tuple(
+            Service(use.what, use.call, use.figures, _why_not(use, log))
+            for use in USES
+            if use.set_up == log.header.set_up
+        ),
+    )
 
 
-def _refusal(use: Use, path: Path | str) -> str:
+def _why_not(use: Use, log: Log) -> str:
+    if lacks := use.lacks(log):
+        return f"it lacks {', '.join(lacks)}"
     try:
         if use.attempt:
-            use.attempt(path)
+            use.attempt(log.path)
     except SoftgripError as error:
-        return str(error).removeprefix(f"{path}: ")
+        return str(error).removeprefix(f"{log.path}: ")
     return ""
 
 
-def _span(log: Log, name: str) -> str:
-    values = log[name]
-    still = ", never changes" if not np.ptp(values) else ""
-    unit = log.header.unit_of(name) or "SI"
-    return f"column  {name}: {values.min():.6g} to {values.max():.6g} {unit}{still}"
+def _span(log: Log, name: str) -> Span:
+    values, unit = log[name], log.header.unit_of(name) or "SI"
+    return Span(name, float(values.min()), float(values.max()), unit)

@@ -1,10 +1,12 @@
 """What a log is said to serve is what the analyses take."""
 
+import json
+
 import pytest
 
 from softgrip.errors import DataFileError
 from softgrip.logs.__main__ import main
-from softgrip.logs.check import USES, describe
+from softgrip.logs.check import USES, contents
 from softgrip.logs.contacts import read_contacts
 from softgrip.logs.fingers import read_runs
 from softgrip.logs.pushes import compare
@@ -28,16 +30,12 @@ CALLS = {
 )
 def test_what_a_log_lacks_the_analysis_refuses(name):
     path = data_file(f"simulated/{name}.csv").path
-    told = describe(path)
-    for use in USES:
-        lacking = any(
-            line.startswith(("lacks", "cannot serve")) and use.what in line
-            for line in told.splitlines()
-        )
-        if lacking and use.what in CALLS:
+    services = contents(path).services
+    assert {one.what for one in services} <= {use.what for use in USES}
+    for one in services:
+        if one.why_not and one.what in CALLS:
             with pytest.raises(DataFileError):
-                CALLS[use.what](path)
-        assert lacking or f"serves  {use.what}" in told or use.set_up not in told
+                CALLS[one.what](path)
 
 
 @pytest.mark.parametrize(
@@ -53,7 +51,7 @@ def test_what_a_log_lacks_the_analysis_refuses(name):
 )
 def test_what_a_log_serves_the_analysis_takes(name, what):
     path = data_file(f"simulated/{name}.csv").path
-    assert f"serves  {what}" in describe(path)
+    assert f"serves  {what}" in str(contents(path))
     CALLS[what](path)
 
 
@@ -67,12 +65,17 @@ def test_the_command_tells_of_each_log_and_ends_with_two_if_one_is_none(tmp_path
         "note  'what' was left out: it has no known unit",
         "note  1 row missing between 0.2 and 0.4 s",
         "column  pressure: 10000 to 10000 Pa, never changes",
-        "lacks  the columns angle, reference, for the response to a step (Figure 4.5",
+        "cannot serve  the response to a step (Figure 4.5, Table 3.C, Table 4.C): it lacks the"
+        " columns angle, reference",
         "area and lead of the pump in the header",
     ):
         assert words in said
     assert main(["check", str(path), str(tmp_path / "none.csv")]) == 2
     assert "none.csv: expected a file, got none" in capsys.readouterr().err
+    assert main(["check", "--json", str(path)]) == 0
+    (told,) = json.loads(capsys.readouterr().out)
+    assert told["rows"] == 4
+    assert told["columns"] == [{"name": "pressure", "low": 1e4, "high": 1e4, "unit": "Pa"}]
 
 
 def test_a_step_that_ends_too_early_cannot_serve(tmp_path):
@@ -80,4 +83,4 @@ def test_a_step_that_ends_too_early_cannot_serve(tmp_path):
     rows = "".join(f"{0.05 * k:.2f},{min(k, 9)},9\n" for k in range(20))
     path.write_text("time [s],angle [deg],reference [deg]\n" + rows)
     words = "the response to a step (Figure 4.5, Table 3.C, Table 4.C): expected a step and more"
-    assert f"cannot serve  {words}" in describe(path)
+    assert f"cannot serve  {words}" in str(contents(path))
