@@ -83,11 +83,11 @@ USES = (
         ("command", "angle", "angle_2"), (), ("Figure 6.4", "Figure 6.5", "Figure 6.7"), whole=True,
     ),
     Use(
-        "acceptance against the printed numbers", "python -m softgrip.rig accept",
+        "acceptance against the printed numbers", "softgrip accept",
         ("pressure", "angle", "reference"), attempt=judge_step_log,
     ),
     Use(
-        "a simulated rig fitted to yours", "python -m softgrip.rig fit",
+        "a simulated rig fitted to yours", "softgrip fit rig",
         ("command", "pressure_counts", "pressure", "angle_counts", "angle"), PUMP, start=False,
     ),
     Use(
