@@ -22,7 +22,13 @@ def show_neighbours(readings: PadReadings, *, splits: int = 3) -> SVG:
     """Draw Figure 2.7 for readings with kinds: accuracy over k from 1 to 10, on random splits."""
     scores = {
         k: [
-            split_score(nearest_neighbours(k), readings.voltages, readings.labels, seed=seed)
+            split_score(
+                nearest_neighbours(k),
+                readings.voltages,
+                readings.labels,
+                seed=seed,
+                groups=readings.groups,
+            )
             for seed in range(splits)
         ]
         for k in range(1, 11)
@@ -33,7 +39,7 @@ def show_neighbours(readings: PadReadings, *, splits: int = 3) -> SVG:
 
 def show_confusions(readings: PadReadings, *, seed: int = 0) -> SVG:
     """Draw Figure 2.11 for readings with kinds: what two classifiers say of a fifth left out."""
-    train, test = train_and_test(readings.labels, seed=seed)
+    train, test = train_and_test(readings.labels, seed=seed, groups=readings.groups)
     settings = {"single": KindSettings(estimators=0), "bagging": KindSettings()}
     told = {
         name: PadModel(one).fit(readings.take(train)).predict(readings.voltages[test])

@@ -45,17 +45,20 @@ def controller(name: Name, stage: str = "tuned") -> Controller:
     return PressureByPlunger(pid, identified_model().pump_gain)
 
 
-def own_loop(design: str, gains: Gains | None = None, *, duration: float = 8.0) -> LoopResult:
+def own_loop(
+    design: str, gains: Gains | None = None, *, duration: float = 8.0, step: float | None = None
+) -> LoopResult:
     """Run a PID, with its tuned gains if none are given, on the linear model it was designed on.
 
-    ``design`` is "actuator" or "full"; the model is identified from logs of the simulated rig.
+    ``design`` is "actuator" or "full"; the model is identified from logs of the simulated rig. The
+    step [rad] is that of the logs if none is given.
     """
     model = identified_model()
     if design == "actuator":
         system, limit = state_space(model.finger), SET_PRESSURE
     else:
         system, limit = full_state_space(model.finger, model.pump_gain), SPEED_LIMIT
-    step = choice("pid_step")
+    step = choice("pid_step") if step is None else step
     return linear_loop(system, gains or pid_gains(design), limit, step=step, duration=duration)
 
 

@@ -158,13 +158,15 @@ def figure_4_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     paths = in_place(logs, STEPS)
     drawn, rows = sheet(2.6 * len(paths), len(paths), 1, sharex=True, sharey=True, squeeze=False)
     panels = rows[:, 0]
-    titles = ("(a) designed on the finger alone", "(b) designed on finger and pump")
-    model = "own model" if not logs else "model of the rig of the book"
+    names = ("(a) designed on the finger alone", "(b) designed on finger and pump")
+    titles = tuple(Path(path).name for path in logs) or names
     for axes, path, design, title in zip(panels, paths, ("actuator", "full"), titles, strict=False):
         if not logs:
             shade(axes, f"pid-{design}", MEASURED, label=LABEL)
         _draw_log(axes, path, lw=1)
-        found = own_loop(design, duration=15.0)
+        step = float(read_log(path)["reference"][-1]) if logs else None
+        model = "the book's model, same step" if logs else "own model"
+        found = own_loop(design, duration=15.0, step=step)
         axes.plot(found.time, np.ravel(found.measured) / DEG, color=LUDWICK, ls="--", label=model)
         axes.set(title=title, ylabel="angle (deg)", xlim=(0, 15), ylim=(-5, None))
     panels[-1].set_xlabel("time (s)")

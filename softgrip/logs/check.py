@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import fill
 
 from softgrip.errors import SoftgripError
 from softgrip.logs.gaps import gaps_of, late_start, period_of
@@ -12,6 +13,8 @@ from softgrip.logs.schema import PAD_CHANNELS, Log, SetUp
 from softgrip.logs.staircase import judge_staircase
 from softgrip.logs.steps import judge_step_log
 
+WIDTH = 88
+"""Characters of a line of what is said; that of a page holds as many."""
 PUMP = ("area", "lead")
 """Keys of a header that name the pump."""
 
@@ -115,9 +118,11 @@ class Service:
 
     def __str__(self) -> str:
         shown = f" ({', '.join(self.figures)})" if self.figures else ""
-        if self.why_not:
-            return f"cannot serve  {self.what}{shown}: {self.why_not}"
-        return f"serves  {self.what}: {self.call}{shown}"
+        if not self.why_not:
+            return f"serves  {self.what}{shown}:\n        {self.call}"
+        return f"cannot serve  {self.what}{shown}:\n" + fill(
+            self.why_not, WIDTH, initial_indent=" " * 8, subsequent_indent=" " * 8
+        )
 
 
 @dataclass(frozen=True)

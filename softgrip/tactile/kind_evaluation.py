@@ -32,19 +32,40 @@ def accuracy(right: Right) -> Accuracy:
 
 
 def train_and_test(
-    kinds: ArrayLike, *, seed: int, test: float = TEST_SHARE
+    kinds: ArrayLike, *, seed: int, test: float = TEST_SHARE, groups: ArrayLike | None = None
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Split contacts at random, with the kinds' shares kept: indices to train and to test on.
+
+    With groups, as of `cross_validated`, no group is on both sides, and the share is that of one
+    fold of as many as come nearest to it.
 
     >>> train, test = train_and_test(["point", "line", "surface"] * 210, seed=0)
     >>> train.size, test.size
     (504, 126)
     """
     labels = np.asarray(kinds)
+    if groups is not None:
+        count = round(1 / test)
+        _check_folds(labels, groups, count)
+        folds = StratifiedGroupKFold(count, shuffle=True, random_state=seed)
+        train, tested = next(folds.split(labels, labels, groups))
+        return train, tested
     train, tested = train_test_split(
         np.arange(labels.size), test_size=test, random_state=seed, stratify=labels
     )
     return train, tested
+
+
+def _check_folds(labels: NDArray[Any], groups: ArrayLike | None, folds: int) -> None:
+    """Refuse more folds than a kind has groups, or contacts: some fold would have none of it."""
+    units = np.arange(labels.size) if groups is None else np.asarray(groups)
+    counts = {str(kind): np.unique(units[labels == kind]).size for kind in np.unique(labels)}
+    rarest = min(counts, key=lambda kind: counts[kind])
+    if not 2 <= folds <= counts[rarest]:
+        what = "contacts" if groups is None else "groups"
+        raise InvalidInputError(
+            "folds", expected=f"2 to {counts[rarest]}, the {what} of the kind {rarest}", got=folds
+        )
 
 
 def cross_validated(
@@ -73,14 +94,7 @@ def cross_validated(
             would have none of it.
     """
     labels = np.asarray(kinds)
-    units = np.arange(labels.size) if groups is None else np.asarray(groups)
-    counts = {str(kind): np.unique(units[labels == kind]).size for kind in np.unique(labels)}
-    rarest = min(counts, key=lambda kind: counts[kind])
-    if not 2 <= folds <= counts[rarest]:
-        what = "contacts" if groups is None else "groups"
-        raise InvalidInputError(
-            "folds", expected=f"2 to {counts[rarest]}, the {what} of the kind {rarest}", got=folds
-        )
+    _check_folds(labels, groups, folds)
     make = StratifiedKFold if groups is None else StratifiedGroupKFold
     parts = make(folds, shuffle=True, random_state=seed)
     found = cross_val_predict(model, responses, labels, groups=groups, cv=parts)
@@ -134,16 +148,24 @@ class SplitScore:
     tested: Accuracy
 
 
-def split_score(model: Any, responses: ArrayLike, kinds: ArrayLike, *, seed: int) -> SplitScore:
+def split_score(
+    model: Any,
+    responses: ArrayLike,
+    kinds: ArrayLike,
+    *,
+    seed: int,
+    groups: ArrayLike | None = None,
+) -> SplitScore:
     """Split contacts in two, cross-validate on the larger part, test on the other.
 
     Args:
-        model, responses, kinds: As in `cross_validated`.
+        model, responses, kinds, groups: As in `cross_validated`.
         seed: Of the split and of the folds.
     """
     x, y = np.asarray(responses), np.asarray(kinds)
-    train, test = train_and_test(y, seed=seed)
+    train, test = train_and_test(y, seed=seed, groups=groups)
+    own = None if groups is None else np.asarray(groups)[train]
     return SplitScore(
-        accuracy(cross_validated(model, x[train], y[train], seed=seed)),
+        accuracy(cross_validated(model, x[train], y[train], seed=seed, groups=own)),
         accuracy(right_on_new(model, x[train], y[train], x[test], y[test])),
     )

@@ -51,7 +51,7 @@ def test_what_a_log_lacks_the_analysis_refuses(name):
 )
 def test_what_a_log_serves_the_analysis_takes(name, what):
     path = data_file(f"simulated/{name}.csv").path
-    assert f"serves  {what}" in str(contents(path))
+    assert f"\nserves  {what}" in str(contents(path))
     CALLS[what](path)
 
 
@@ -65,8 +65,8 @@ def test_the_command_tells_of_each_log_and_ends_with_two_if_one_is_none(tmp_path
         "note  'what' was left out: it has no known unit",
         "note  1 row missing between 0.2 and 0.4 s",
         "column  pressure: 10000 to 10000 Pa, never changes",
-        "cannot serve  the response to a step (Figure 4.5, Table 3.C, Table 4.C): it lacks the"
-        " columns angle, reference",
+        "cannot serve  the response to a step (Figure 4.5, Table 3.C, Table 4.C):\n"
+        "        it lacks the columns angle, reference",
         "area and lead of the pump in the header",
     ):
         assert words in said
@@ -82,5 +82,7 @@ def test_a_step_that_ends_too_early_cannot_serve(tmp_path):
     path = tmp_path / "run.csv"
     rows = "".join(f"{0.05 * k:.2f},{min(k, 9)},9\n" for k in range(20))
     path.write_text("time [s],angle [deg],reference [deg]\n" + rows)
-    words = "the response to a step (Figure 4.5, Table 3.C, Table 4.C): expected a step and more"
+    words = (
+        "the response to a step (Figure 4.5, Table 3.C, Table 4.C):\n        expected a step and"
+    )
     assert f"cannot serve  {words}" in str(contents(path))

@@ -98,3 +98,13 @@ def test_more_folds_than_contacts_or_groups_of_a_kind_are_refused():
         kind_evaluation.cross_validated(
             Remembers(), x, kinds, seed=0, folds=3, groups=np.arange(12) // 6
         )
+
+
+def test_no_press_is_on_both_sides_of_a_split():
+    presses = np.repeat(np.arange(60), 3)
+    kinds = np.array(["point", "line", "surface"])[presses % 3]
+    train, test = kind_evaluation.train_and_test(kinds, seed=0, groups=presses)
+    assert not set(presses[train]) & set(presses[test])
+    assert len(test) == pytest.approx(0.2 * len(kinds), rel=0.1)
+    with pytest.raises(InvalidInputError, match="the groups of the kind"):
+        kind_evaluation.train_and_test(kinds[:9], seed=0, groups=presses[:9])
