@@ -13,7 +13,7 @@ from softgrip.logs.schema import PAD_CHANNELS, Log, SetUp
 from softgrip.logs.staircase import judge_staircase
 from softgrip.logs.steps import judge_step_log
 
-WIDTH = 88
+WIDTH = 78
 """Characters of a line of what is said; that of a page holds as many."""
 PUMP = ("area", "lead")
 """Keys of a header that name the pump."""
