@@ -68,7 +68,8 @@ def skip(_app: Sphinx, what: str, name: str, found: object, _skip: bool, _: obje
 
 def know_elsewhere(_app: Sphinx, config: Any) -> None:
     """Let docstrings name what is documented in another project (YAML has no pairs)."""
-    config.nitpick_ignore = [("py:exc", "sklearn.exceptions.NotFittedError")]
+    others = ("sklearn.exceptions.NotFittedError", "csv.Error")
+    config.nitpick_ignore = [("py:exc", name) for name in others]
 
 
 def setup(app: Sphinx) -> None:

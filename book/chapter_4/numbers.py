@@ -47,7 +47,7 @@ def fastest(
 def rate_ratio(small_area: float, large_area: float, short_lead: float, long_lead: float) -> float:
     """Divide the rate with large area and short lead by that with small area and long lead.
 
-    >>> rate_ratio(1.0, 4.0, 0.002, 0.008)
+    >>> rate_ratio(2e-4, 8e-4, 0.002, 0.008)
     1.0
     """
     first, second = Pump(large_area, short_lead), Pump(small_area, long_lead)

@@ -34,7 +34,7 @@ def parser() -> ArgumentParser:
             name,
             help=about,
             description=about,
-            epilog=example,
+            epilog=example.replace("::\n\n", ":\n"),
             formatter_class=RawDescriptionHelpFormatter,
         )
         module.add_arguments(one)

@@ -1,6 +1,7 @@
 """Judge the log of a step against the printed numbers; 1 if a band failed.
 
-Example:
+Example::
+
   softgrip accept lqr.csv --experiment lqr
   softgrip accept lqr.csv --experiment lqr --json
 """

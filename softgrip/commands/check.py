@@ -1,6 +1,7 @@
 """Say what a log of a rig or a pad holds, what it lacks, and what it can serve.
 
-Example:
+Example::
+
   softgrip check run.csv
   softgrip check --json run-*.csv
 """

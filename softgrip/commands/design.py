@@ -1,6 +1,7 @@
 r"""Find the best section of a finger, with a proof that no other is better: Eq. (3.20).
 
-Example:
+Example::
+
   softgrip design --pressure "80 kPa" --material "Dragon Skin 20" --length "80 mm" \
     --top "10 mm" "16 mm" --width "15 mm" "22 mm" --frequency 0.4 0.8 --mass "100 g"
   softgrip design --json

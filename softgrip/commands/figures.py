@@ -1,6 +1,7 @@
 """Write figures and tables of the book, with their numbers as CSV; in a clone of the book.
 
-Example:
+Example::
+
   softgrip figures "Figure 5.1" table-3-1 --into figures
   softgrip figures "Figure 4.5" --log run.csv --into figures
 """

@@ -1,6 +1,7 @@
 """Fit a material to a tensile test, or the simulated rig to logs, with intervals.
 
-Example:
+Example::
+
   softgrip fit material rubber.csv --gauge-length "30 mm" --area "12 mm^2"
   softgrip fit rig step.csv push.csv -o my-rig.csv
 """

@@ -1,6 +1,7 @@
 """Push the plunger of a rig, rest, and keep the log: what a rig is fitted to. The motor turns.
 
-Example:
+Example::
+
   softgrip record simulated -o push.csv --travel "20 mm" --speed "2 rad/s" --duration 15
   softgrip record /dev/ttyACM0 -o step.csv --travel "12 mm" --duration 8
 """
