@@ -1,15 +1,17 @@
-"""``python -m tests.book.alone``: what each exhibit reads that is made with nothing in memory.
+"""``python -m tests.book.alone FOLDER``: each exhibit, made and saved with nothing in memory.
 
-Each is made in a process of its own, which has imported everything and computed nothing. Its
-opened files are heard by a hook of our own, and printed as JSON: by title, below ``data/``.
+Each is made in a process of its own, which has imported everything and computed nothing. The files
+that it opens are heard by a hook of our own, and printed as JSON: by title, below ``data/``.
 """
 
 import json
 import multiprocessing
 import os
 import sys
+from pathlib import Path
 
 from book.companion.exhibit import exhibits
+from book.companion.save import save
 from softgrip.provenance import data_folder
 
 DATA = data_folder().resolve()
@@ -23,7 +25,7 @@ def hear(event, args):
 
 def read_by(index):
     OPENED.clear()
-    ITEMS[index].make()
+    save(ITEMS[index], Path(sys.argv[1]))
     return sorted(os.path.relpath(path, DATA) for path in OPENED if path.startswith(f"{DATA}/"))
 
 

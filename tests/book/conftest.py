@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -35,14 +36,36 @@ def build(folder: Path, **environment: str) -> str:
 
 
 @pytest.fixture(scope="session")
-def read_alone() -> dict[str, list[str]]:
+def alone(
+    tmp_path_factory: pytest.TempPathFactory, testrun_uid: str
+) -> tuple[Path, dict[str, list[str]]]:
+    """Make each exhibit alone; return their folder, and the files below ``data/`` of each title.
+
+    One worker does it for all, as it takes minutes; the others wait for what it prints.
+    """
+    folder = tmp_path_factory.getbasetemp().parent / f"alone-{testrun_uid}"
+    said, failed = folder / "said.json", folder / "failed.txt"
+    try:
+        folder.mkdir()
+    except FileExistsError:
+        while not (said.exists() or failed.exists()):
+            time.sleep(0.5)
+    else:
+        command = [sys.executable, "-m", "tests.book.alone", str(folder)]
+        # One thread each: there is an exhibit for each processor already.
+        one = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+        result = subprocess.run(command, capture_output=True, text=True, env=one)
+        written = folder / "written.txt"
+        written.write_text(result.stderr[-6000:] if result.returncode else result.stdout)
+        written.rename(failed if result.returncode else said)  # whole, or not there
+    assert not failed.exists(), failed.read_text()
+    return folder, json.loads(said.read_text())
+
+
+@pytest.fixture(scope="session")
+def read_alone(alone: tuple[Path, dict[str, list[str]]]) -> dict[str, list[str]]:
     """Return the files below ``data/`` that each exhibit reads when it is made alone, by title."""
-    command = [sys.executable, "-m", "tests.book.alone"]
-    # One thread each: there is an exhibit for each processor already.
-    one = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    result = subprocess.run(command, capture_output=True, text=True, env=one)
-    assert result.returncode == 0, result.stderr[-6000:]
-    return json.loads(result.stdout)
+    return alone[1]
 
 
 @pytest.fixture(scope="session")

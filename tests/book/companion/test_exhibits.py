@@ -7,7 +7,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from book.companion.exhibit import BOOK, chapters, exhibit, exhibits
-from book.companion.save import numbers, save
+from book.companion.save import make, numbers, save
 from book.companion.style import style
 from softgrip.errors import UnknownNameError
 from softgrip.provenance import data_folder
@@ -23,16 +23,16 @@ def saved(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def again(saved, tmp_path_factory):
-    """Save every exhibit once more."""
-    folder = tmp_path_factory.mktemp("second")
-    return folder, {item.title: save(item, folder) for item in ALL}
+def again(saved):
+    """Make every exhibit once more, when all the others have been made."""
+    return {item.title: make(item) for item in ALL}
 
 
 @pytest.mark.book
 @pytest.mark.parametrize("item", ALL, ids=lambda item: item.title)
-def test_files_are_the_same_to_the_bit(item, saved, again):
-    first, second = (sorted(folder.glob(f"{item.name}.*")) for folder in (saved[0], again[0]))
+def test_files_are_the_same_to_the_bit(item, saved, alone):
+    """Made after others in one process, and alone in another."""
+    first, second = (sorted(folder.glob(f"{item.name}.*")) for folder in (saved[0], alone[0]))
     assert [f.name for f in first] == [f.name for f in second] != []
     assert [f.read_bytes() for f in first] == [f.read_bytes() for f in second]
 
@@ -77,7 +77,7 @@ def test_nothing_is_read_before_an_exhibit_is_made(read_alone):
 def test_strip_names_what_it_reads_alone_though_others_have_read_it_before(
     item, saved, again, read_alone
 ):
-    for made in (saved[1][item.title], again[1][item.title]):
+    for made in (saved[1][item.title], again[item.title]):
         names = [file.path.relative_to(data_folder().resolve()).as_posix() for file in made.data]
         assert names == read_alone[item.title]
 
