@@ -130,8 +130,12 @@ def bounding_weight(
     assert best is not None  # a constant at the largest bound is always feasible
     top, low = (_left_factor(part) for part in (best[: order + 1], best[order + 1 :]))
     top, low = top / low[0], low / low[0]
-    rest = filter_state_space((top - top[0] * low)[1:], low)
-    found = control.ss(unit * rest.A, unit * rest.B, rest.C, top[0])
+    beyond = (top - top[0] * low)[1:]
+    if beyond.any():
+        rest = filter_state_space(beyond, low)
+        found = control.ss(unit * rest.A, unit * rest.B, rest.C, top[0])
+    else:  # the bound is a gain alone
+        found = control.ss([], [], [], top[0])
     # The program's tolerance may leave the weight below the bound by a percent.
     return found * float(max(1.0, np.max(size / np.abs(found(1j * w)).ravel())))
 

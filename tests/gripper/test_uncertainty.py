@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from softgrip.errors import InvalidInputError
@@ -55,6 +55,7 @@ def test_weight_bounds_its_samples_and_is_stable_and_minimum_phase(order):
 
 
 @settings(max_examples=8)
+@example(0.334, 1.0, 1.0)  # which is a gain alone
 @given(st.floats(0.05, 0.5), st.floats(1, 5), st.floats(1, 30))
 def test_weight_finds_a_lag_lead_again(low, rise, corner):
     """A bound that is itself the gain of a first-order weight is met exactly."""
