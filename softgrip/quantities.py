@@ -109,7 +109,7 @@ def _plain(unit: str) -> str:
     """Return a unit as `pint` reads it: powers by a caret, one sign for each."""
     text = unit.strip().replace("**", "^").replace("²", "^2").replace("³", "^3")
     text = text.replace("º", "°").replace("\u2126", "Ω").replace("µ", "u").replace("μ", "u")
-    # A point between letters is a product; on Python 3.13 `pint` takes it for an attribute.
+    # A point between letters is a product, which `pint` 0.26, unlike 0.25, does not read.
     text = re.sub(r"(?<=[^\W\d])\.(?=[^\W\d])", "·", text)
     text = re.sub(r"\s*([*/·^])\s*", r"\1", text)
     return re.sub(r"(?<=[^\W\d])([23])(?![\w])", r"^\1", text)
