@@ -1,4 +1,4 @@
-"""Pages side by side: those whose outputs are not kept run before Sphinx reads them, one a core.
+"""Pages side by side: those whose outputs are not kept run before Sphinx reads them, some at once.
 
 MyST-NB runs a page when it is read, one after the other. What jupyter-cache keeps by then it takes
 from there. A page that fails is left to it: it runs again, and the error is told as ever.
@@ -19,7 +19,7 @@ from nbclient.exceptions import CellExecutionError, CellTimeoutError
 from nbformat import NotebookNode
 
 MOST = 4
-"""Pages at a time: a kernel takes up to a gigabyte."""
+"""Pages at a time, or as many as there are cores: a kernel takes up to a gigabyte."""
 
 
 def waiting(env: Any, pages: Iterable[str]) -> dict[str, NotebookNode]:
@@ -46,8 +46,6 @@ def execute(env: Any, pages: Iterable[str], variables: Callable[[str], dict[str,
         variables: Gives the environment of a page's kernel.
     """
     left = waiting(env, pages)
-    # The front page judges every claim, and keeps that for the others: it goes first.
-    order = sorted(left, key=lambda page: page != env.config.root_doc)
     cache = get_cache(env.mystnb_config.execution_cache_path)
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     at_a_time = asyncio.Semaphore(min(MOST, cores or 1))
@@ -72,6 +70,6 @@ def execute(env: Any, pages: Iterable[str], variables: Callable[[str], dict[str,
         cache.cache_notebook_bundle(bundle, check_validity=False, overwrite=True)
 
     async def run_all() -> None:
-        await asyncio.gather(*map(run, order))
+        await asyncio.gather(*map(run, left))
 
     asyncio.run(run_all())

@@ -15,7 +15,6 @@ from softgrip.actuator.certificate import CertifiedDesign, certified_design
 from softgrip.actuator.design import Bounds, DesignProblem, FrequencyBand
 from softgrip.commands.quantity import quantity
 from softgrip.errors import InvalidInputError
-from softgrip.materials.table import material
 from softgrip.units import DEG, MM
 
 OF_PROBLEM = {
@@ -54,13 +53,11 @@ def add_arguments(parser: ArgumentParser) -> None:
 def problem(asked: Namespace) -> DesignProblem:
     """Return the problem that the arguments state; without any, that of the dissertation."""
     given = {name: getattr(asked, name) for name in OF_PROBLEM if getattr(asked, name) is not None}
-    if asked.material is not None:
-        if doubled := sorted(given.keys() & {"young_modulus", "fractional_power"}):
-            raise InvalidInputError(
-                "--material", expected="E and n of the table, or your own", got=f"both {doubled}"
-            )
-        of_table = material(asked.material)
-        given |= {name: getattr(of_table, name) for name in ("young_modulus", "fractional_power")}
+    doubled = sorted(given.keys() & {"young_modulus", "fractional_power"})
+    if asked.material is not None and doubled:
+        raise InvalidInputError(
+            "--material", expected="E and n of the table, or your own", got=f"both {doubled}"
+        )
     if not isinstance(given.get("fractional_power", 1.0), float):
         raise InvalidInputError(
             "--fractional-power", expected="a number", got=given["fractional_power"]
@@ -71,6 +68,8 @@ def problem(asked: Namespace) -> DesignProblem:
         raise InvalidInputError("--mass", expected="--frequency beside it", got="none")
     masses = {} if asked.mass is None else {"least_mass": asked.mass, "largest_mass": asked.mass}
     band = None if asked.frequency is None else FrequencyBand(*asked.frequency, **masses)
+    if asked.material is not None:
+        return DesignProblem.for_material(asked.material, **given, bounds=bounds, band=band)
     return DesignProblem(**given, bounds=bounds, band=band)
 
 

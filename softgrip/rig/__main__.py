@@ -3,12 +3,10 @@
 import argparse
 import sys
 from collections.abc import Sequence
-from typing import get_args
 
 from softgrip.board.find import candidates
 from softgrip.errors import SoftgripError
-from softgrip.logs.reader import read_log
-from softgrip.rig.acceptance import Experiment, judge, report
+from softgrip.rig.accept import add_accept_arguments, run_accept
 from softgrip.rig.check import run_check
 from softgrip.rig.connect import connect
 from softgrip.rig.fit import add_fit_arguments, run_fit
@@ -24,8 +22,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     one.add_argument("--calibration", help="file of the board's calibration")
     commands.add_parser("find", help="list the ports that may be a board")
     one = commands.add_parser("accept", help="judge the log of a step against the printed numbers")
-    one.add_argument("log")
-    one.add_argument("--experiment", choices=get_args(Experiment), required=True)
+    add_accept_arguments(one)
     one = commands.add_parser("fit", help="fit the simulated rig to your own logs")
     add_fit_arguments(one)
     asked = parser.parse_args(arguments)
@@ -38,13 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             seen = candidates()
             print("\n".join(map(str, seen)) or "no USB port of a known maker")
             return int(not any(candidate.answered for candidate in seen))
-        if asked.command == "fit":
-            return run_fit(asked)
-        for words in read_log(asked.log).repairs:
-            print(f"note  {words}")
-        bands = judge(asked.log, asked.experiment)
-        print(report(bands))
-        return int(not all(band.passed for band in bands))
+        return run_fit(asked) if asked.command == "fit" else run_accept(asked)
     except (SoftgripError, OSError) as error:
         print(error, file=sys.stderr)
         return 2

@@ -1,11 +1,11 @@
 """The built book, and a browser that has no network."""
 
+import fcntl
 import json
 import os
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -41,24 +41,20 @@ def alone(
 ) -> tuple[Path, dict[str, list[str]]]:
     """Make each exhibit alone; return their folder, and the files below ``data/`` of each title.
 
-    One worker does it for all, as it takes minutes; the others wait for what it prints.
+    The first worker that asks does it for all, as it takes minutes; the others wait.
     """
     folder = tmp_path_factory.getbasetemp().parent / f"alone-{testrun_uid}"
-    said, failed = folder / "said.json", folder / "failed.txt"
-    try:
-        folder.mkdir()
-    except FileExistsError:
-        while not (said.exists() or failed.exists()):
-            time.sleep(0.5)
-    else:
-        command = [sys.executable, "-m", "tests.book.alone", str(folder)]
-        # One thread each: there is an exhibit for each processor already.
-        one = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-        result = subprocess.run(command, capture_output=True, text=True, env=one)
-        written = folder / "written.txt"
-        written.write_text(result.stderr[-6000:] if result.returncode else result.stdout)
-        written.rename(failed if result.returncode else said)  # whole, or not there
-    assert not failed.exists(), failed.read_text()
+    folder.mkdir(exist_ok=True)
+    said = folder / "said.json"
+    with (folder / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)  # let go when its process ends, however it ends
+        if not said.exists():
+            command = [sys.executable, "-m", "tests.book.alone", str(folder)]
+            # One thread each: there is an exhibit for each processor already.
+            one = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+            result = subprocess.run(command, capture_output=True, text=True, env=one)
+            assert result.returncode == 0, result.stderr[-6000:]
+            said.write_text(result.stdout)
     return folder, json.loads(said.read_text())
 
 

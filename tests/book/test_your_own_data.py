@@ -1,6 +1,7 @@
 """The page on a reader's own data, run cell by cell: what was put in comes out."""
 
 import contextlib
+import io
 import re
 
 import jupytext
@@ -10,8 +11,6 @@ import pytest
 @pytest.fixture(scope="module")
 def page(root):
     """The names that the page leaves, and what it prints."""
-    import io
-
     names, said = {}, io.StringIO()
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
         for cell in jupytext.read(root / "book" / "your-own-data.md").cells:
@@ -22,6 +21,10 @@ def page(root):
 
 def test_step_settles_after_three_of_its_time_constants(page):
     assert float(page[0]["found"].settled_5_percent) == pytest.approx(1.5, abs=0.1)
+
+
+def test_step_that_was_made_up_is_called_simulated(page):
+    assert "step.csv: simulated, another program" in page[1]
 
 
 def test_lost_rows_are_told_with_their_place(page):
