@@ -1,4 +1,4 @@
-"""Array types of the material laws, and the checks that the laws share."""
+"""Array types, numbers from outside, and the checks that the material laws share."""
 
 from collections.abc import Iterator
 from typing import Any, TypeVar
@@ -15,27 +15,70 @@ Value = TypeVar("Value", float, Floats)
 Number = Any
 """A float, an array or a CasADi symbol: a law returns what it was given, and broadcasts."""
 
+ROUNDING = 1e-6
+"""Of a period: the times are decimals, whose difference is not exactly the period."""
+
 
 def read_only(values: ArrayLike) -> Floats:
     """Copy values into a float array that cannot be written to."""
-    array = np.array(values, dtype=np.float64)
+    array = floats(values=values)[0].copy()
     array.setflags(write=False)
     return array
+
+
+def floats(**values: ArrayLike) -> tuple[Floats, ...]:
+    """Return what a reader hands over as float arrays: all numbers from outside come in here.
+
+    As for NumPy, None among others is a number that is missing (NaN), and digits in words are one.
+
+    Raises:
+        InvalidInputError: If a value is no number, or numbers in rows of one length. What NumPy
+            would take half of is refused, too: imaginary parts, dates, masks, units of `pint`.
+
+    >>> [array.tolist() for array in floats(time=[0, 1], level="2.5")]
+    [[0.0, 1.0], 2.5]
+    """
+    found = []
+    for name, value in values.items():
+        try:
+            if value is None or hasattr(value, "magnitude"):
+                raise TypeError
+            array = np.asarray(value)
+            if array.dtype.kind in "bcmM":
+                raise TypeError
+            found.append(np.asarray(array, dtype=np.float64))
+        except (TypeError, ValueError, OverflowError):
+            expected = "real numbers without a unit, in rows of one length"
+            raise InvalidInputError(name, expected=expected, got=value) from None
+    return tuple(found)
+
+
+def one_number(**values: float) -> tuple[float, ...]:
+    """Return values that are a finite number each.
+
+    Raises:
+        InvalidInputError: If one is none, or several.
+    """
+    arrays = floats(**values)
+    for (name, value), array in zip(values.items(), arrays, strict=True):
+        if array.ndim or not np.isfinite(array):
+            raise InvalidInputError(name, expected="a finite number", got=value)
+    return tuple(float(array) for array in arrays)
 
 
 def check_positive(**values: ArrayLike) -> None:
     """Raise InvalidInputError for the first value, number or array, not finite and above zero."""
     for name, value in values.items():
-        array = np.asarray(value, dtype=np.float64)
-        if not (np.isfinite(array).all() and (array > 0).all()):
+        (array,) = floats(**{name: value})
+        if not (array.size and np.isfinite(array).all() and (array > 0).all()):
             raise InvalidInputError(name, expected="a finite number > 0", got=value)
 
 
 def check_stretch(stretch: float | Floats) -> None:
     """Raise InvalidInputError if a stretch is not above zero: no body has a length of zero."""
-    least = float(np.min(stretch))
-    if not least > 0:
-        raise InvalidInputError("stretch", expected="numbers > 0 (1 + strain)", got=least)
+    (array,) = floats(stretch=stretch)
+    if not (array.size and np.isfinite(array).all() and (array > 0).all()):
+        raise InvalidInputError("stretch", expected="numbers > 0 (1 + strain)", got=stretch)
 
 
 def tensile_curve(strain: ArrayLike, stress: ArrayLike, *, at_least: int) -> tuple[Floats, Floats]:
@@ -49,7 +92,7 @@ def tensile_curve(strain: ArrayLike, stress: ArrayLike, *, at_least: int) -> tup
     Raises:
         InvalidInputError: If one of these does not hold.
     """
-    e, s = np.asarray(strain, dtype=np.float64), np.asarray(stress, dtype=np.float64)
+    e, s = floats(strain=strain, stress=stress)
     if e.ndim != 1 or e.shape != s.shape or e.size < at_least:
         raise InvalidInputError(
             "strain, stress",
@@ -69,6 +112,28 @@ def tensile_curve(strain: ArrayLike, stress: ArrayLike, *, at_least: int) -> tup
             "stress", expected="at least one value > 0", got=f"a largest value of {s.max():g}"
         )
     return e, s
+
+
+def intervals(time: ArrayLike, period: float) -> Floats:
+    """Return the time from each row to the next in periods, shape (N - 1,).
+
+    A whole number where only the rounding of decimals parts it from one: sums over an even log are
+    then exact.
+
+    Args:
+        time: s, shape (N,), increasing.
+        period: s, > 0.
+
+    >>> intervals([0.025, 0.05, 0.125, 0.151], 0.025).round(6).tolist()
+    [1.0, 3.0, 1.04]
+    """
+    (t,) = floats(time=time)
+    check_positive(period=period)
+    if t.ndim != 1 or not np.isfinite(t).all() or np.ndim(period):
+        raise InvalidInputError("time, period", expected="finite, (N,) and a number", got=t.shape)
+    found = np.diff(t) / float(period)
+    whole = np.rint(found)
+    return np.where(np.abs(found - whole) < ROUNDING, whole, found)
 
 
 def chunks(runs: int, bytes_per_run: float, *, limit: float = 64e6) -> Iterator[slice]:

@@ -1,20 +1,100 @@
 """Checks of input; they look at floats and arrays alike. See also `softgrip.arrays`."""
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import fields
+from functools import wraps
+from inspect import signature
+from typing import Any, Literal, ParamSpec, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats, Value, check_positive, floats, one_number
 from softgrip.errors import InvalidInputError, NotFiniteError
+
+Given = ParamSpec("Given")
+Returned = TypeVar("Returned")
+
+
+def takes_numbers(function: Callable[Given, Returned]) -> Callable[Given, Returned]:
+    """Make a function refuse, by name, what is not of the kind that it says it takes.
+
+    What is annotated as ``float`` must be one finite number, as ``int`` a whole one, as an array
+    or a value numbers of any shape, which come in as `floats`, and as ``Literal`` one of its words;
+    None where it may be None. Ranges and shapes are the function's own.
+
+    >>> @takes_numbers
+    ... def mean(values: ArrayLike, *, weight: float = 1.0) -> float:
+    ...     return weight * float(np.mean(values))
+    >>> mean([1, 2], weight="2")
+    3.0
+    >>> mean([1, 2], weight="twice")
+    Traceback (most recent call last):
+    softgrip.errors.InvalidInputError: weight: expected real numbers without a unit, in rows of \
+one length, got 'twice'
+    """
+    kinds = get_type_hints(function)
+    readers = {name: found for name, kind in kinds.items() if (found := _reader(kind))}
+    taken = signature(function)
+
+    @wraps(function)
+    def checked(*args: Given.args, **kwargs: Given.kwargs) -> Returned:
+        given = taken.bind(*args, **kwargs)
+        for name in given.arguments.keys() & readers.keys():
+            given.arguments[name] = readers[name](name, given.arguments[name])
+        return function(*given.args, **given.kwargs)
+
+    return checked
+
+
+def _reader(kind: Any) -> Callable[[str, Any], Any] | None:
+    """Return what reads an argument that is annotated so; None if that says nothing of numbers."""
+    if kind is float:
+        return lambda name, value: one_number(**{name: value})[0]
+    if kind is int:
+        return _whole
+    if kind in (ArrayLike, Floats):
+        return lambda name, value: floats(**{name: value})[0]
+    if kind is Value:
+        return _value
+    if get_origin(kind) is Literal:
+        return lambda name, value: _word(name, value, get_args(kind))
+    without = [part for part in get_args(kind) if part is not type(None)]
+    if len(without) < len(get_args(kind)) and (inner := _reader(_union(without))):
+        return lambda name, value: None if value is None else inner(name, value)
+    return None
+
+
+def _union(kinds: list[Any]) -> Any:
+    found = kinds[0]
+    for kind in kinds[1:]:
+        found = found | kind
+    return found
+
+
+def _value(name: str, value: Any) -> Any:
+    (found,) = floats(**{name: value})
+    return found if found.ndim else float(found)
+
+
+def _whole(name: str, value: object) -> int:
+    (number,) = one_number(**{name: value})  # type: ignore[arg-type]
+    if number != round(number):
+        raise InvalidInputError(name, expected="a whole number", got=value)
+    return int(number)
+
+
+def _word(name: str, value: object, valid: tuple[object, ...]) -> object:
+    if not isinstance(value, str) or value not in valid:
+        raise InvalidInputError(name, expected=f"one of {valid}", got=value)
+    return value
 
 
 def check_not_negative(**values: ArrayLike) -> None:
     """Raise InvalidInputError for the first value that is not all finite and >= 0."""
     for name, value in values.items():
-        array = np.asarray(value, dtype=np.float64)
-        if not (np.isfinite(array).all() and (array >= 0).all()):
+        (array,) = floats(**{name: value})
+        if not (array.size and np.isfinite(array).all() and (array >= 0).all()):
             raise InvalidInputError(name, expected="finite numbers >= 0", got=value)
 
 
@@ -37,7 +117,8 @@ def check_fields(
 def check_finite(**values: ArrayLike) -> None:
     """Raise InvalidInputError for the first value that holds NaN or infinity."""
     for name, value in values.items():
-        if not np.isfinite(np.asarray(value, dtype=np.float64)).all():
+        (array,) = floats(**{name: value})
+        if not (array.size and np.isfinite(array).all()):
             raise InvalidInputError(name, expected="finite numbers", got=value)
 
 
@@ -55,10 +136,10 @@ def samples(**values: ArrayLike) -> tuple[Floats, ...]:
     found = []
     for name, value in values.items():
         try:
-            array = np.asarray(value, dtype=np.float64)
-        except (TypeError, ValueError):
+            (array,) = floats(**{name: value})
+        except InvalidInputError:
             raise NotFiniteError(name, got=value) from None
-        if not np.isfinite(array).all():
+        if not (array.size and np.isfinite(array).all()):
             raise NotFiniteError(name, got=array.tolist())
         found.append(array)
     return tuple(found)
@@ -70,7 +151,7 @@ def record(*, at_least: int, **columns: ArrayLike) -> tuple[Floats, ...]:
     Raises:
         InvalidInputError: If the shapes differ, a record is too short, or a value is not finite.
     """
-    arrays = tuple(np.asarray(column, dtype=np.float64) for column in columns.values())
+    arrays = floats(**columns)
     shape = arrays[0].shape
     if len(shape) != 1 or shape[0] < at_least or any(a.shape != shape for a in arrays):
         raise InvalidInputError(

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from softgrip.arrays import floats
 from softgrip.errors import InvalidInputError
 
 Units = tuple[tuple[str, float], ...]
@@ -46,7 +47,7 @@ class Plausible:
         softgrip.errors.InvalidInputError: length: expected the length of a finger, 0.001 to 1 m \
 (from micro-grippers to arms of 1 m), got '110: probably mm (0.11 m)'
         """
-        numbers = np.atleast_1d(np.asarray(value, dtype=np.float64))
+        numbers = np.atleast_1d(floats(**{name: value})[0])
         outside = numbers[~((numbers >= self.low) & (numbers <= self.high))]
         if not outside.size:
             return

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, floats, one_number
 from softgrip.errors import InvalidInputError, UnknownNameError
 
 if TYPE_CHECKING:
@@ -194,7 +194,9 @@ def convert(values: ArrayLike, unit: str, wanted: str, *, name: str = "unit") ->
     >>> convert([0.0, 14.5], "psi", "Pa").round().tolist()
     [0.0, 99974.0]
     """
-    found = np.asarray(values, dtype=np.float64)
+    (found,) = floats(**{name: values})
+    if not isinstance(unit, str):
+        raise InvalidInputError(name, expected=expected_units(wanted), got=unit)
     if unit == wanted:
         return found
     meant = _found(unit, wanted)
@@ -265,7 +267,7 @@ def in_si(name: str, value: object, wanted: str) -> float:
     elif hasattr(value, "magnitude") and hasattr(value, "units"):
         number, unit = value.magnitude, str(value.units)
     try:
-        found = float(number)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
+        (found,) = one_number(**{name: number})  # type: ignore[arg-type]
+    except InvalidInputError:
         raise InvalidInputError(name, expected=f"a number in {wanted}", got=value) from None
     return float(convert(found, unit, wanted, name=name))

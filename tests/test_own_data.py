@@ -146,7 +146,9 @@ def test_tensile_tests_of_own_materials(name, sizes, young_modulus):
 
 def test_material_that_is_not_in_the_table_holds_its_own_modulus():
     test = tensile.parse(CASES / "tensile-own-material.csv")
-    assert fit(test, Fitting()).young_modulus == pytest.approx(0.12e6, rel=1e-3)
+    # Its law is one of the engineering stress: the true one is no power, which is said.
+    with pytest.warns(FitWarning, match="misses the curve"):
+        assert fit(test, Fitting()).young_modulus == pytest.approx(0.12e6, rel=1e-3)
     assert fit(test, Fitting("engineering")).fractional_power == pytest.approx(1.6, abs=1e-3)
 
 

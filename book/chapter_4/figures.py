@@ -28,7 +28,7 @@ from softgrip.control.designs import NOISE
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.minimum_time import farthest
 from softgrip.dynamics.second_order import full_state_space
-from softgrip.logs.gaps import intervals, period_of
+from softgrip.logs.gaps import period_of
 from softgrip.logs.pump import pump_of
 from softgrip.logs.pushes import prior, reference_noise
 from softgrip.logs.reader import kept_log, read_log
@@ -124,8 +124,7 @@ def figure_4_a() -> Figure:
     log = read_log(hold)
     flow = pump_of(hold, log).displacement * log["command"]
     model = ElastanceModel(period_of(log), noise, prior(push.capacity))
-    steps = intervals(log["time"], period_of(log))
-    held = estimate(log["pressure"], flow, log["angle"], model, steps=steps)
+    held = estimate(log["pressure"], flow, log["angle"], model, time=log["time"])
     _draw_capacity(second, held.time, log["angle"], held.capacity, held.capacity_std, gain)
     first.set(title="pushing", xlabel="time (s)", ylabel="capacity (mL/MPa)", ylim=(0, 2600))
     second.set(title="holding 60 deg", xlabel="time (s)")

@@ -10,8 +10,9 @@ from numpy.typing import ArrayLike
 from scipy.stats import f as fisher
 from scipy.stats import linregress
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, check_positive, floats
 from softgrip.board.errors import WrongBoardError
+from softgrip.checks import takes_numbers
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.provenance import Provenance, cells, describe
 from softgrip.simulator.parameters import SensorParameters
@@ -54,7 +55,7 @@ class SensorLine:
 
     def value(self, counts: ArrayLike) -> Floats:
         """Return what counts stand for, of their shape."""
-        return np.asarray(self.offset + self.gain * np.asarray(counts, dtype=np.float64))
+        return np.asarray(self.offset + self.gain * floats(counts=counts)[0])
 
 
 @dataclass(frozen=True)
@@ -82,7 +83,7 @@ class DividerCurve:
     def value(self, counts: ArrayLike) -> Floats:
         """Return what counts stand for, of their shape; at the pole, which is a rail, infinity."""
         with np.errstate(divide="ignore"):
-            apart = np.asarray(counts, dtype=np.float64) - self.pole
+            apart = floats(counts=counts)[0] - self.pole
             return np.asarray(self.offset + self.gain / apart)
 
 
@@ -97,6 +98,7 @@ def fit_sensor(
 def fit_sensor(
     counts: ArrayLike, known: ArrayLike, *, curve: Curve | None = None, top: float = TOP_COUNT
 ) -> SensorCurve: ...
+@takes_numbers
 def fit_sensor(
     counts: ArrayLike, known: ArrayLike, *, curve: Curve | None = None, top: float = TOP_COUNT
 ) -> SensorCurve:
@@ -121,9 +123,10 @@ def fit_sensor(
     >>> fit_sensor([100, 200, 400, 800], [8.0, 4.0, 2.0, 1.0]).value(160).round(6).item()
     5.0
     """
-    x, y = np.asarray(counts, np.float64), np.asarray(known, np.float64)
-    good = x.ndim == 1 and x.shape == y.shape
-    if good and np.isfinite(x).all() and not ((x >= 0) & (x <= top)).all():
+    x, y = floats(counts=counts, known=known)
+    check_positive(top=top)
+    good = x.ndim == 1 and x.shape == y.shape and bool(np.isfinite(x).all())
+    if good and not ((x >= 0) & (x <= top)).all():
         raise InvalidInputError(
             "counts",
             expected=f"0 to {top:g}, the highest of the converter (top=4095 for one of 12 bits)",
@@ -272,7 +275,7 @@ def load(path: Path | str) -> BoardCalibration:
             expected=f"a line '# board:', and the columns {COLUMNS}, with {POLE!r} for dividers",
             got=str(rows[:1]),
         )
-    names = [row[0] for row in rows[1:]]
+    names = [row[0] if row else "" for row in rows[1:]]
     try:
         curves = [_read_curve(row[1:], len(rows[0]) - 1) for row in rows[1:]]
     except (TypeError, ValueError) as error:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from scipy.signal import savgol_coeffs
 
 from softgrip.arrays import Floats, Number, check_positive
-from softgrip.checks import samples
+from softgrip.checks import samples, takes_numbers
 from softgrip.control.pid import PERIOD
 from softgrip.errors import InvalidInputError
 
@@ -72,6 +72,7 @@ class RobustDifferentiator:
     [4.99, 0.5]
     """
 
+    @takes_numbers
     def __init__(self, jerk: Number, *, period: float = PERIOD) -> None:
         check_positive(jerk=jerk, period=period)
         self.jerk, self.period = jerk, period
@@ -109,6 +110,7 @@ class PolynomialDifferentiator:
     [0.01, 0.2, 2.0]
     """
 
+    @takes_numbers
     def __init__(self, window: int, *, order: int = 2, period: float = PERIOD) -> None:
         check_positive(period=period)
         if not (2 <= order < window):

@@ -7,8 +7,8 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, Number, check_positive
-from softgrip.checks import samples
+from softgrip.arrays import Floats, Number, check_positive, floats
+from softgrip.checks import check_finite, samples, takes_numbers
 from softgrip.errors import InvalidInputError
 
 PERIOD = 0.025
@@ -40,8 +40,7 @@ class Gains:
 
     def __post_init__(self) -> None:
         check_positive(derivative_filter=self.derivative_filter)
-        if not all(np.isfinite(gain).all() for gain in (self.kp, self.ki, self.kd)):
-            raise InvalidInputError("gains", expected="finite numbers", got=self)
+        check_finite(kp=self.kp, ki=self.ki, kd=self.kd)
 
 
 @final
@@ -68,6 +67,7 @@ class PID:
     [2.1, 2.2, 1.25]
     """
 
+    @takes_numbers
     def __init__(
         self,
         gains: Gains,
@@ -78,7 +78,8 @@ class PID:
         anti_windup: bool = True,
     ) -> None:
         check_positive(period=period)
-        if not limits[0] < limits[1]:
+        (ends,) = floats(limits=limits)
+        if ends.shape != (2,) or not ends[0] < ends[1]:
             raise InvalidInputError("limits", expected="(least, largest)", got=limits)
         if derivative_on not in get_args(DerivativeOn):
             raise InvalidInputError(

@@ -6,8 +6,8 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, Number, check_positive
-from softgrip.checks import samples
+from softgrip.arrays import Floats, Number, check_positive, floats
+from softgrip.checks import samples, takes_numbers
 from softgrip.control.differentiator import Differentiator
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import canonical_form
@@ -42,6 +42,7 @@ class StateFeedback:
     5.0
     """
 
+    @takes_numbers
     def __init__(
         self,
         gain: ArrayLike,
@@ -51,7 +52,12 @@ class StateFeedback:
         set_speed: float = SPEED_LIMIT,
     ) -> None:
         check_positive(input_gain=input_gain, set_speed=set_speed)
-        self.speed_gain = set_speed / input_gain * _three(gain)
+        (each,), K = floats(input_gain=input_gain), _three(gain)
+        if each.ndim and each.shape != K.shape[1:]:
+            raise InvalidInputError(
+                "input_gain", expected=f"a number or shape {K.shape[1:]}", got=each.shape
+            )
+        self.speed_gain = set_speed / each * K
         self.differentiator = differentiator
 
     def update(self, reference: ArrayLike, measurement: ArrayLike) -> Floats:
@@ -94,6 +100,7 @@ class ObserverFeedback:
         limit: As a share of the set speed.
     """
 
+    @takes_numbers
     def __init__(
         self,
         gain: ArrayLike,
@@ -159,7 +166,7 @@ class ObserverFeedback:
 
 def _three(gain: ArrayLike) -> Floats:
     """Return K, checked."""
-    K = np.asarray(gain, dtype=np.float64)
+    (K,) = floats(gain=gain)
     if K.ndim not in (1, 2) or K.shape[0] != 3 or not np.isfinite(K).all():
         raise InvalidInputError("gain", expected="finite, shape (3,) or (3, runs)", got=K.shape)
     return K

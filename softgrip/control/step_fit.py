@@ -8,10 +8,14 @@ from scipy.optimize import least_squares
 from scipy.stats import t as student
 
 from softgrip.arrays import Floats
+from softgrip.checks import record, takes_numbers
 from softgrip.dynamics.scatter import dependence
 from softgrip.dynamics.second_order import step_response
+from softgrip.errors import InvalidInputError, UnknownNameError
 
 CONFIDENCE = 0.95
+LEAST = 8
+"""Samples that a fit of six numbers needs."""
 STARTS = 12
 """Dead times, and time constants, from which a fit starts, each."""
 DAMPING = (0.4, 0.8, 1.5)
@@ -85,6 +89,7 @@ PROCESSES: dict[str, tuple[Shape, Callable[[Floats], tuple[float, float]], tuple
 }
 
 
+@takes_numbers
 def fit_step(time: Floats, output: Floats, name: str) -> StepFit:
     """Fit a process of `PROCESSES` by least squares.
 
@@ -92,7 +97,18 @@ def fit_step(time: Floats, output: Floats, name: str) -> StepFit:
         time: s, 0 at the step, shape (N,), increasing; what is before the step is rest.
         output: Shape (N,).
         name: Of the process.
+
+    Raises:
+        InvalidInputError: If the record is not as said, or has fewer samples than `LEAST`.
+        UnknownNameError: If there is no such process.
     """
+    time, output = record(at_least=LEAST, time=time, output=output)
+    if not (np.all(np.diff(time) > 0) and time[-1] > 0 and np.ptp(output) > 0):
+        raise InvalidInputError(
+            "time, output", expected="times that increase to after the step, a response", got=output
+        )
+    if name not in PROCESSES:
+        raise UnknownNameError("process", name, list(PROCESSES))
     shape, tangent, dampings = PROCESSES[name]
     end, scale = float(time[-1]), float(np.ptp(output))
     y = output / scale
@@ -148,6 +164,7 @@ def fit_step(time: Floats, output: Floats, name: str) -> StepFit:
     )
 
 
+@takes_numbers
 def best_step_fit(time: Floats, output: Floats) -> StepFit:
     """Return the process of `PROCESSES` with the least `StepFit.criterion`.
 

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats, check_positive, floats
+from softgrip.checks import takes_numbers
 from softgrip.errors import InvalidInputError
 
 
@@ -26,6 +27,7 @@ class StepMetrics:
     steady_state_error: Floats
 
 
+@takes_numbers
 def step_metrics(
     time: ArrayLike,
     output: ArrayLike,
@@ -44,6 +46,7 @@ def step_metrics(
     )
 
 
+@takes_numbers
 def settling_time(
     time: ArrayLike,
     output: ArrayLike,
@@ -78,7 +81,11 @@ def settling_time(
     """
     check_positive(band=band)
     t, y = _record(time, output)
-    f, i = np.asarray(final, np.float64)[..., None], np.asarray(initial, np.float64)[..., None]
+    f, i = (array[..., None] for array in floats(final=final, initial=initial))
+    if not all(values.size and not np.isinf(values).any() for values in (f, i)):
+        raise InvalidInputError(
+            "final, initial", expected="numbers that are not infinite", got=(final, initial)
+        )
     excess = np.abs(y - f) - (band if absolute else band * np.abs(f - i))
     outside = excess > 0
     last = t.size - 1 - np.argmax(outside[..., ::-1], axis=-1)
@@ -92,15 +99,17 @@ def settling_time(
     return np.where(np.isnan(excess).any(axis=-1), np.nan, found)
 
 
+@takes_numbers
 def overshoot(output: ArrayLike, *, target: ArrayLike, initial: ArrayLike = 0.0) -> Floats:
     """Return how far the output goes beyond the target, as a share of the change, >= 0.
 
     `output` has shape (N,) or (runs, N). With no change there is no share: the result is NaN.
     """
-    progress = _progress(np.asarray(output, np.float64), target, initial)
+    progress = _progress(floats(output=output)[0], target, initial)
     return np.asarray(np.maximum(progress.max(axis=-1) - 1, 0.0))
 
 
+@takes_numbers
 def rise_time(
     time: ArrayLike,
     output: ArrayLike,
@@ -124,6 +133,7 @@ def rise_time(
         return np.where(np.isinf(late), np.inf, late - early)
 
 
+@takes_numbers
 def final_value(time: ArrayLike, output: ArrayLike, *, window: float = 0.5) -> Floats:
     """Return the mean of the output over the last `window` seconds, rad, shape () or (runs,)."""
     check_positive(window=window)
@@ -143,13 +153,17 @@ def _first_crossing(t: Floats, progress: Floats, level: float) -> Floats:
 
 
 def _progress(y: Floats, target: ArrayLike, initial: ArrayLike) -> Floats:
-    begin = np.asarray(initial, np.float64)[..., None]
-    change = np.asarray(target, np.float64)[..., None] - begin
+    end, begin = (array[..., None] for array in floats(target=target, initial=initial))
+    if not all(values.size and not np.isinf(values).any() for values in (y, end, begin)):
+        raise InvalidInputError(
+            "output, target, initial", expected="none that is infinite", got=(target, initial)
+        )
+    change = end - begin
     return np.asarray((y - begin) / np.where(change == 0, np.nan, change))
 
 
 def _record(time: ArrayLike, output: ArrayLike) -> tuple[Floats, Floats]:
-    t, y = np.asarray(time, dtype=np.float64), np.asarray(output, dtype=np.float64)
+    t, y = floats(time=time, output=output)
     if t.ndim != 1 or t.size < 2 or y.shape[-1:] != t.shape:
         raise InvalidInputError(
             "time, output", expected="shapes (N,) and (..., N), N >= 2", got=(t.shape, y.shape)

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, Number, check_positive
-from softgrip.checks import record
+from softgrip.arrays import Floats, Number, check_positive, floats
+from softgrip.checks import check_finite, record, takes_numbers
 from softgrip.control.pid import Gains
 from softgrip.control.step_fit import best_step_fit
 from softgrip.dynamics.scatter import leaves_more, scatter
@@ -66,6 +66,7 @@ class ReactionCurve:
     warning: str = ""
 
 
+@takes_numbers
 def reaction_curve(
     time: ArrayLike,
     output: ArrayLike,
@@ -189,6 +190,7 @@ def _tangent(
     return ReactionCurve(delay, slope, rest - level, *about, method)
 
 
+@takes_numbers
 def integrating_reaction_curve(
     time: ArrayLike,
     output: ArrayLike,
@@ -263,7 +265,7 @@ def _curve(found: ReactionCurve, step: float) -> ReactionCurve:
             "be told from none, and the gains of Ziegler and Nichols' rule rest on it"
         )
     if warning:
-        warnings.warn(warning, FitWarning, stacklevel=3)
+        warnings.warn(warning, FitWarning, stacklevel=4)
     slopes = found.slope_interval
     if slopes is not None:
         low, high = sorted(slope / step for slope in slopes)
@@ -324,6 +326,7 @@ def _record(
     return t - begin, y, float(rest.mean()) if rest.size else float(y[0]), scatter(t, y)
 
 
+@takes_numbers
 def ziegler_nichols(
     curve: ReactionCurve, kind: Kind = "PID", *, filter_ratio: float = FILTER_RATIO
 ) -> Gains:
@@ -343,8 +346,13 @@ def ziegler_nichols(
     if kind not in get_args(Kind):
         raise InvalidInputError("kind", expected=f"one of {get_args(Kind)}", got=kind)
     check_positive(delay=curve.delay, filter_ratio=filter_ratio)
+    check_finite(slope=curve.slope)
     factor, integral, derivative = RULE[kind]
-    kp = factor / (curve.slope * curve.delay)
+    L, R = (
+        array.tolist() if array.ndim == 0 else array
+        for array in floats(delay=curve.delay, slope=curve.slope)
+    )
+    kp = factor / (R * L)
     # A filter is asked for even where no derivative uses it.
-    tau = (derivative or RULE["PID"][2]) * curve.delay / filter_ratio
-    return Gains(kp, kp / (integral * curve.delay), kp * derivative * curve.delay, tau)
+    tau = (derivative or RULE["PID"][2]) * L / filter_ratio
+    return Gains(kp, kp / (integral * L), kp * derivative * L, tau)

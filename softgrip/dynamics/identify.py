@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike
 from scipy.optimize import OptimizeResult, least_squares
 from scipy.stats import t as student
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, floats
+from softgrip.checks import takes_numbers
 from softgrip.dynamics.scatter import scatter
 from softgrip.dynamics.second_order import Hold, SecondOrder, response
 from softgrip.errors import FitWarning, InvalidInputError
@@ -77,6 +78,7 @@ class Identified:
         return SecondOrder(self.natural_frequency.value, self.damping_ratio.value, self.gain.value)
 
 
+@takes_numbers
 def identify(
     time: ArrayLike,
     input: ArrayLike,
@@ -178,7 +180,7 @@ def identify(
     elif damping > 1 and w.low <= 0:
         warning = f"omega_n and zeta cannot be told apart: {one_lag}"
     if warning and dead_time is None:
-        warnings.warn(warning, FitWarning, stacklevel=2)
+        warnings.warn(warning, FitWarning, stacklevel=3)
     return Identified(
         w,
         z,
@@ -257,7 +259,7 @@ def _standard_errors(jacobian: Floats, residual: Floats) -> Floats:
 def _record(
     time: ArrayLike, input: ArrayLike, output: ArrayLike, initial_input: float | None
 ) -> tuple[Floats, Floats, Floats]:
-    t, u, y = (np.asarray(values, dtype=np.float64) for values in (time, input, output))
+    t, u, y = floats(time=time, input=input, output=output)
     if t.ndim != 1 or t.shape != u.shape or t.shape != y.shape or t.size < LEAST_SAMPLES:
         raise InvalidInputError(
             "time, input, output",

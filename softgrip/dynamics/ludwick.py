@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, Number, chunks
+from softgrip.arrays import Floats, Number, chunks, floats
 from softgrip.dynamics.integrate import Derivative, rk4
 from softgrip.errors import InvalidInputError
 
@@ -217,7 +217,7 @@ def pressure_response(
     >>> round(float(angle[-1]), 3)  # at rest K_n theta**n = F
     1.0
     """
-    t, p = np.asarray(time, dtype=np.float64), np.asarray(pressure, dtype=np.float64)
+    t, p = floats(time=time, pressure=pressure)
     if t.ndim != 1 or t.size < 2 or p.shape != t.shape or not (np.diff(t) > 0).all():
         raise InvalidInputError(
             "time, pressure",

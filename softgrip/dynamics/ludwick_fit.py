@@ -7,7 +7,8 @@ from numpy.typing import ArrayLike
 from scipy.optimize import least_squares
 from scipy.stats import t as student
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats, check_positive, floats
+from softgrip.checks import takes_numbers
 from softgrip.dynamics.identify import CONFIDENCE, LEAST_SAMPLES, Estimate
 from softgrip.dynamics.ludwick import LudwickFinger, pressure_response
 from softgrip.errors import InvalidInputError
@@ -54,6 +55,7 @@ LEAST = np.array([0.0, 0.0, 0.0, 1.0])
 """Least mass, damping, stiffness and power; what is fitted is the logarithm of what is above."""
 
 
+@takes_numbers
 def fit_finger(
     time: ArrayLike,
     pressure: ArrayLike,
@@ -177,7 +179,7 @@ def _starts(t: Floats, p: Floats, y: Floats, given: Floats) -> Floats:
 def _record(
     time: ArrayLike, pressure: ArrayLike, angle: ArrayLike
 ) -> tuple[Floats, Floats, Floats]:
-    t, p, y = (np.asarray(values, dtype=np.float64) for values in (time, pressure, angle))
+    t, p, y = floats(time=time, pressure=pressure, angle=angle)
     good = t.ndim == 1 and t.shape == p.shape == y.shape and t.size >= LEAST_SAMPLES
     if not (good and np.isfinite([t, p, y]).all() and (np.diff(t) > 0).all()):
         raise InvalidInputError(

@@ -7,7 +7,7 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats, check_positive, floats
 from softgrip.errors import InvalidInputError
 
 Hold = Literal["linear", "zero"]
@@ -112,7 +112,7 @@ def free_motion(
 
     Every solution of Eq. (4.12) without input is a sum of the two. The arguments broadcast.
     """
-    t = np.asarray(time, dtype=np.float64)
+    (t,) = floats(time=time)
     fast, slow = _rates(natural_frequency, damping_ratio)
     x = (fast - slow) * t
     # The quotient is 1 at equal rates, where sinh(d t) / d is t: the critically damped case.
@@ -192,7 +192,7 @@ def response(
     >>> response(SecondOrder(1.0, 1.0), [0, 1], [1, 1], initial_pressure=0).round(6).tolist()
     [0.0, 0.264241]
     """
-    t, p = np.asarray(time, dtype=np.float64), np.asarray(pressure, dtype=np.float64)
+    t, p = floats(time=time, pressure=pressure)
     if hold not in get_args(Hold):
         raise InvalidInputError("hold", expected=f"one of {get_args(Hold)}", got=hold)
     if t.ndim != 1 or t.size < 2 or p.shape[-1:] != t.shape:

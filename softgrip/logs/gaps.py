@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from softgrip.arrays import Floats
+from softgrip.arrays import ROUNDING, Floats, floats, intervals
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.logs.schema import Log, LogHeader
 
@@ -32,8 +32,6 @@ TICK = 1e-3
 LEAST_WHOLE = 0.1
 """Share of the intervals that must be no gaps. A host that is too busy may leave out more than half
 of the rows; but where there is a gap after every row, it is the header that is wrong."""
-ROUNDING = 1e-6
-"""Of a period: the times are decimals, whose difference is not exactly the period."""
 MOST_NAMED = 6
 """Gaps that are named one by one."""
 
@@ -58,31 +56,13 @@ class Gap:
         return f"{rows} missing between {self.start:.6g} and {self.end:.6g} s (row {self.row + 1})"
 
 
-def intervals(time: ArrayLike, period: float) -> Floats:
-    """Return the time from each row to the next in periods, shape (N - 1,).
-
-    A whole number where only the rounding of decimals parts it from one: sums over an even log are
-    then exact.
-
-    Args:
-        time: s, shape (N,), increasing.
-        period: s, > 0.
-
-    >>> intervals([0.025, 0.05, 0.125, 0.151], 0.025).round(6).tolist()
-    [1.0, 3.0, 1.04]
-    """
-    found = np.diff(np.asarray(time, dtype=np.float64)) / period
-    whole = np.rint(found)
-    return np.where(np.abs(found - whole) < ROUNDING, whole, found)
-
-
 def find_gaps(time: ArrayLike, period: float) -> tuple[Gap, ...]:
     """Return where rows are missing; parameters as of `intervals`.
 
     >>> [str(gap) for gap in find_gaps([0.0, 1.0, 4.0, 5.4], 1.0)]
     ['2 rows missing between 1 and 4 s (row 2)']
     """
-    t, steps = np.asarray(time, dtype=np.float64), intervals(time, period)
+    (t,), steps = floats(time=time), intervals(time, period)
     return tuple(
         Gap(int(row), float(t[row]), float(t[row + 1]), round(float(steps[row])) - 1)
         for row in np.flatnonzero(steps > LATE)
@@ -96,8 +76,8 @@ def check_even(time: Floats) -> None:
         InvalidInputError: If they are fewer, some are missing, or one is more than `EVEN` of the
             median interval off an even clock.
     """
-    if time.size < 2:
-        raise InvalidInputError("time", expected="two samples or more", got=time.size)
+    if time.ndim != 1 or time.size < 2:
+        raise InvalidInputError("time", expected="(N,), two samples or more", got=time.shape)
     period = float(np.median(np.diff(time)))
     if not period > 0:
         raise InvalidInputError("time", expected="times that increase", got=time)

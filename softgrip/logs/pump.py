@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, intervals
 from softgrip.errors import DataFileError
-from softgrip.logs.gaps import even_clock, gaps_of, intervals, period_of, places, refuse_late_start
+from softgrip.logs.gaps import even_clock, gaps_of, period_of, places, refuse_late_start
 from softgrip.logs.schema import Log
 from softgrip.pump.flow import Pump
 

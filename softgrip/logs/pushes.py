@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import least_squares
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, intervals
 from softgrip.errors import DataFileError
 from softgrip.kept import Kept
-from softgrip.logs.gaps import intervals, period_of
+from softgrip.logs.gaps import period_of
 from softgrip.logs.pump import check_start, even_push, pump_of, swept_volume
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import Log
@@ -91,8 +91,7 @@ def measure_noise() -> NoiseEstimate:
     flow = pump_of(path, log).displacement * log["command"]
     capacity = _fit_capacity(path, log, swept_volume(path, log, flow))
     model = ElastanceModel(period_of(log), FIRST_GUESS, prior(capacity))
-    steps = intervals(log["time"], period_of(log))
-    return estimate_noise(log["pressure"], flow, log["angle"], model, steps=steps)
+    return estimate_noise(log["pressure"], flow, log["angle"], model, time=log["time"])
 
 
 KEPT = Kept(
@@ -148,7 +147,7 @@ def compare(
     growth = _fit_growth(swept, measured, capacity)
     levels = reference_noise() if noise is None else noise
     model = ElastanceModel(period, levels, prior(capacity))
-    estimated = estimate(measured, flow, log["angle"], model, steps=steps)
+    estimated = estimate(measured, flow, log["angle"], model, time=time)
     # What holds at a sample counts until the next one; over a gap, straight from one to the other.
     held, beyond = estimated.elastance[:-1], np.maximum(steps - 1, 0.0) / 2
     over = steps * held + beyond * np.diff(estimated.elastance)

@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, check_positive
+from softgrip.checks import record, takes_numbers
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.logs.gaps import check_even, even_clock, refuse_gaps
 from softgrip.logs.reader import read_log
@@ -37,6 +38,7 @@ class StaircaseResponse:
     rms_error: float
 
 
+@takes_numbers
 def lag(reference: ArrayLike, angle: ArrayLike, period: float, *, longest: float = 3.0) -> float:
     """Return the delay, s, of the largest correlation between reference and later angle.
 
@@ -49,7 +51,8 @@ def lag(reference: ArrayLike, angle: ArrayLike, period: float, *, longest: float
     >>> lag(wave[10:], wave[:-10], 0.025)
     0.25
     """
-    r, y = np.asarray(reference, np.float64), np.asarray(angle, np.float64)
+    r, y = record(at_least=2, reference=reference, angle=angle)
+    check_positive(period=period, longest=longest)
     most = round(longest / period)
     if r.shape != y.shape or r.ndim != 1 or 2 * most > r.size or not (np.ptp(r) and np.ptp(y)):
         raise InvalidInputError(
@@ -80,7 +83,7 @@ def mean_edge(
         InvalidInputError: If times are missing or uneven, there is no change or no such hold, or
             the reference is a ramp.
     """
-    t, r, y = (np.asarray(values, np.float64) for values in (time, reference, angle))
+    t, r, y = record(at_least=2, time=time, reference=reference, angle=angle)
     check_even(t)
     at = np.flatnonzero(np.diff(r)) + 1
     if at.size == 0:

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.ndimage import uniform_filter1d
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Flags, Floats, check_positive, floats
+from softgrip.checks import takes_numbers
 from softgrip.control.step_metrics import final_value, settling_time
-from softgrip.errors import DataFileError
+from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.logs.gaps import check_even, even_clock, period_of, refuse_gaps, refuse_late_start
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import Log
@@ -61,6 +62,7 @@ class StepResponse:
     noise: Floats
 
 
+@takes_numbers
 def smoothed(angle: ArrayLike, period: float, *, window: float = WINDOW) -> Floats:
     """Return the mean about each sample, so without a delay; beyond the ends the ends go on.
 
@@ -70,10 +72,13 @@ def smoothed(angle: ArrayLike, period: float, *, window: float = WINDOW) -> Floa
         window: s, >= 0; the odd number of samples nearest above it is taken, one for 0.
     """
     check_positive(period=period)
+    if not np.ndim(angle):
+        raise InvalidInputError("angle", expected="shape (N,) or (runs, N)", got=angle)
     samples = 2 * round(window / period / 2) + 1
-    return np.asarray(uniform_filter1d(np.asarray(angle, np.float64), samples, mode="nearest"))
+    return np.asarray(uniform_filter1d(floats(angle=angle)[0], samples, mode="nearest"))
 
 
+@takes_numbers
 def judge_step(
     time: ArrayLike,
     angle: ArrayLike,
@@ -83,7 +88,7 @@ def judge_step(
     about: About = "reference",
     window: float = WINDOW,
     band: float = ANGLES[-1],
-    measured: ArrayLike = True,
+    measured: Flags | bool = True,
 ) -> StepResponse:
     """Judge a step.
 
@@ -101,8 +106,12 @@ def judge_step(
     Raises:
         InvalidInputError: If the times do not increase or are uneven, or samples are missing.
     """
-    t, raw = np.asarray(time, np.float64), np.asarray(angle, np.float64)
+    t, raw = floats(time=time, angle=angle)
     check_even(t)
+    if raw.shape[-1:] != t.shape or np.isinf(raw).any():
+        raise InvalidInputError(
+            "angle", expected=f"shape (..., {t.size}), not infinite", got=raw.shape
+        )
     y = smoothed(raw, float((t[-1] - t[0]) / (t.size - 1)), window=window)
     own = final_value(t, raw, window=END)
     middle = np.broadcast_to(target, own.shape) if about == "reference" else own

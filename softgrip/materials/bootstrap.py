@@ -6,10 +6,12 @@ import numpy as np
 from scipy.stats import norm
 from scipy.stats import t as student_t
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, check_positive
+from softgrip.checks import check_not_negative, record, takes_numbers
 from softgrip.errors import InvalidInputError
 
 
+@takes_numbers
 def block_bootstrap(
     strain: Floats,
     stress: Floats,
@@ -44,6 +46,9 @@ def block_bootstrap(
     Raises:
         InvalidInputError: If `confidence` is not between 0 and 1.
     """
+    strain, stress = record(at_least=2, strain=strain, stress=stress)
+    check_positive(resamples=resamples)
+    check_not_negative(seed=seed, offset=offset)
     if not 0 < confidence < 1:
         raise InvalidInputError("confidence", expected="a number in (0, 1)", got=confidence)
     length = max(2, round(strain.size**0.5))

@@ -7,6 +7,7 @@ from math import inf
 import numpy as np
 
 from softgrip.arrays import Floats
+from softgrip.checks import takes_numbers
 from softgrip.materials import ludwick, yeoh
 from softgrip.materials.bootstrap import block_bootstrap
 from softgrip.materials.fitting import Fitting, curve
@@ -44,6 +45,7 @@ class Elasticity:
         window: Strain up to which that slope is taken.
         yeoh: The three coefficients of Yeoh's law, Pa.
         ludwick_rms, yeoh_rms: Misfit of the laws, root mean square, Pa.
+        ludwick_holds: Whether Ludwick's law describes the curve; see `ludwick.LudwickFit`.
         largest_strain: Up to which they are fitted.
         rows: That they are fitted to.
         confidence: Of the intervals.
@@ -57,11 +59,13 @@ class Elasticity:
     yeoh: tuple[Estimate, Estimate, Estimate]
     ludwick_rms: float
     yeoh_rms: float
+    ludwick_holds: bool
     largest_strain: float
     rows: int
     confidence: float
 
 
+@takes_numbers
 def elasticity(
     test: TensileTest,
     *,
@@ -105,6 +109,7 @@ def elasticity(
     modulus, power = estimates(whole, ludwick_law)
     (small,) = estimates(begin, _slope)
     first, second, third = estimates(whole, lambda e, s: yeoh.fit(e, s).coefficients)
+    law = ludwick.fit(*whole, young_modulus=young_modulus)
     return Elasticity(
         name=test.name,
         young_modulus=modulus,
@@ -112,8 +117,9 @@ def elasticity(
         small_strain_modulus=small,
         window=float(begin[0][-1]),
         yeoh=(first, second, third),
-        ludwick_rms=ludwick.fit(*whole, young_modulus=young_modulus).rms_stress,
+        ludwick_rms=law.rms_stress,
         yeoh_rms=yeoh.fit(*whole).rms_stress,
+        ludwick_holds=law.holds,
         largest_strain=float(whole[0][-1]),
         rows=whole[0].size,
         confidence=confidence,

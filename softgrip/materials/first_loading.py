@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from softgrip.arrays import Floats
+from softgrip.checks import record, takes_numbers
 from softgrip.errors import InvalidInputError
 from softgrip.materials.toe import FEWEST, LIKELIER, Toe, noise, toe
 
@@ -52,6 +53,7 @@ class FirstLoading:
     notes: tuple[str, ...]
 
 
+@takes_numbers
 def first_loading(strain: Floats, stress: Floats, *, zero: Zero | None = None) -> FirstLoading:
     """Return the first loading of a record.
 
@@ -65,6 +67,7 @@ def first_loading(strain: Floats, stress: Floats, *, zero: Zero | None = None) -
         InvalidInputError: If strain or stress does not rise, or what the strain is counted from
             cannot be told.
     """
+    strain, stress = record(at_least=2, strain=strain, stress=stress)
     for name, values in (("strain", strain), ("stress", stress)):
         rise, fall = values.max() - values[0], values[0] - values.min()
         if not rise > fall:

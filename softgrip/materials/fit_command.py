@@ -82,6 +82,11 @@ def words(found: Elasticity, export: Export) -> str:
             f"  C{k}                         {_interval(one, 1e3)} kPa"
             for k, one in enumerate(found.yeoh, start=1)
         ),
+        *(
+            []
+            if found.ludwick_holds
+            else ["note  Ludwick's law does not hold: it misses the curve"]
+        ),
         *(f"note  {note}" for note in export.notes),
     ]
     return "\n".join(lines)

@@ -6,6 +6,7 @@ is a `Fitting`; what all of them give for the ten materials is kept in
 ``data/materials/ludwick_fits.csv``, so that it is there without the measurements.
 """
 
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
@@ -16,7 +17,8 @@ from typing import Literal, get_args
 import numpy as np
 
 from softgrip.arrays import Floats
-from softgrip.errors import InvalidInputError
+from softgrip.checks import takes_numbers
+from softgrip.errors import FitWarning, InvalidInputError
 from softgrip.kept import Kept
 from softgrip.materials import ludwick, tensile
 from softgrip.materials.bootstrap import block_bootstrap
@@ -77,6 +79,7 @@ def held_modulus(test: TensileTest) -> tuple[float, str]:
         ) from None
 
 
+@takes_numbers
 def fit(
     test: TensileTest, fitting: Fitting, *, young_modulus: float | None = None
 ) -> ludwick.LudwickFit:
@@ -89,7 +92,25 @@ def fit(
 
     Raises:
         InvalidInputError: As of `held_modulus` and `softgrip.materials.ludwick.fit`.
+
+    Warns:
+        FitWarning: If the law does not hold in that way, see `LudwickFit.holds`.
     """
+    found = _fit(test, fitting, young_modulus)
+    if not found.holds:
+        held = "fitted" if fitting.modulus == "free" else f"held at {found.young_modulus:.4g} Pa"
+        warnings.warn(
+            f"{test.name}: Ludwick's law of the {fitting.stress} stress, with E {held}, misses the "
+            f"curve by {found.missed:.1%} of its largest stress, beyond the noise; "
+            f"n = {found.fractional_power:.3g} is that of another curve: try the other stress, a "
+            "shorter strain, or E that is free",
+            FitWarning,
+            stacklevel=3,
+        )
+    return found
+
+
+def _fit(test: TensileTest, fitting: Fitting, young_modulus: float | None) -> ludwick.LudwickFit:
     held = _held(test, fitting, young_modulus)
     return ludwick.fit(*curve(test, fitting), young_modulus=held, loss=fitting.loss)
 
@@ -100,6 +121,7 @@ def _held(test: TensileTest, fitting: Fitting, given: float | None) -> float | N
     return held_modulus(test)[0] if given is None else given
 
 
+@takes_numbers
 def bootstrap_interval(
     test: TensileTest,
     fitting: Fitting,
@@ -151,7 +173,7 @@ def measure() -> Iterator[Fitted]:
 
 def _power(test: TensileTest, fitting: Fitting) -> float:
     try:
-        return fit(test, fitting).fractional_power
+        return _fit(test, fitting, None).fractional_power
     except InvalidInputError:
         return nan
 

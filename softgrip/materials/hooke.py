@@ -1,8 +1,10 @@
 """Hooke's law: stress proportional to strain."""
 
 from softgrip.arrays import Value, check_positive
+from softgrip.checks import takes_numbers
 
 
+@takes_numbers
 def stress(strain: Value, young_modulus: float) -> Value:
     """Return the stress of a linear material, Eq. (5.1).
 

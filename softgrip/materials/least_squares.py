@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.stats import t as student_t
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, floats
+from softgrip.checks import check_finite, takes_numbers
 from softgrip.errors import InvalidInputError
 
 
@@ -26,6 +27,7 @@ class Prediction:
     confidence: float
 
 
+@takes_numbers
 def normal_equations(A: ArrayLike, y: ArrayLike) -> Floats:
     """Solve ``A x = y``, Eq. (5.3), for the least sum of squares, Eq. (5.4).
 
@@ -46,15 +48,17 @@ def normal_equations(A: ArrayLike, y: ArrayLike) -> Floats:
     >>> normal_equations([[1, 0], [0, 2], [0, 0]], [3, 4, 5]).tolist()
     [3.0, 2.0]
     """
-    A, y = np.asarray(A, dtype=np.float64), np.asarray(y, dtype=np.float64)
+    A, y = floats(A=A, y=y)
     if A.ndim != 2 or y.shape != A.shape[:1]:
         raise InvalidInputError("A, y", expected="shapes (m, p) and (m,)", got=(A.shape, y.shape))
+    check_finite(A=A, y=y)
     rank, p = int(np.linalg.matrix_rank(A)), A.shape[1]
     if rank < p:
         raise InvalidInputError("A", expected=f"{p} independent columns", got=f"rank {rank}")
     return np.asarray(np.linalg.solve(A.T @ A, A.T @ y), dtype=np.float64)
 
 
+@takes_numbers
 def prediction_interval(
     A: ArrayLike, y: ArrayLike, a: ArrayLike, *, confidence: float = 0.95
 ) -> Prediction:
@@ -76,7 +80,8 @@ def prediction_interval(
     >>> prediction_interval([[1], [1], [1]], [1, 2, 3], [1], confidence=0.5).value
     2.0
     """
-    A, y, a = (np.asarray(values, dtype=np.float64) for values in (A, y, a))
+    A, y, a = floats(A=A, y=y, a=a)
+    check_finite(a=a)
     x = normal_equations(A, y)
     m, p = A.shape
     if m <= p or a.shape != (p,):

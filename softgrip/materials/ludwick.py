@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import minimize_scalar
 
 from softgrip.arrays import Floats, Value, check_positive, tensile_curve
+from softgrip.checks import takes_numbers
 from softgrip.errors import FitWarning, InvalidInputError
 from softgrip.materials.toe import FEWEST, noise
 
@@ -19,6 +20,8 @@ EXPONENT_RANGE = (0.1, 10.0)
 """Exponents that are searched; those of elastomers in tension lie near 1 to 3."""
 REST = 2e-3
 """Share of the largest strain within which a row is at strain 0, where the law has no stress."""
+MISSED = 0.02
+"""Share of the largest stress that the law may miss beyond the noise, root mean square."""
 PRELOAD, CHANCE = 0.01, 4.0
 """Share of the largest stress, and standard deviations of the noise, above which one at strain 0 is
 neither: it bends each power towards 1."""
@@ -35,6 +38,8 @@ class LudwickFit:
             given for each loss, so that fits with different losses can be compared.
         loss: What was made least.
         points: Number of rows used.
+        missed: What the law misses of the curve beyond its noise, root mean square, as a share of
+            the largest stress.
     """
 
     young_modulus: float
@@ -42,8 +47,15 @@ class LudwickFit:
     rms_stress: float
     loss: Loss
     points: int
+    missed: float = 0.0
+
+    @property
+    def holds(self) -> bool:
+        """Whether the law describes the curve: its power is else not to be relied on."""
+        return self.missed <= MISSED
 
 
+@takes_numbers
 def stress(strain: Value, young_modulus: float, fractional_power: float) -> Value:
     """Return the stress of Ludwick's law, Eq. (5.2), continued as an odd function.
 
@@ -71,6 +83,7 @@ def stress(strain: Value, young_modulus: float, fractional_power: float) -> Valu
     return result
 
 
+@takes_numbers
 def fit(
     strain: ArrayLike,
     stress: ArrayLike,
@@ -124,7 +137,8 @@ def fit(
         factor, n = c ** (-1 / m), 1 / m
     E = scale * factor
     rms = float(np.sqrt(np.mean((s - E * e**n) ** 2)))
-    return LudwickFit(E, n, rms, loss, e.size)
+    beyond = max(rms**2 - (noise(s) ** 2 if s.size >= FEWEST else 0.0), 0.0) ** 0.5
+    return LudwickFit(E, n, rms, loss, e.size, beyond / float(s.max()))
 
 
 def _warn_of_preload(strain: Floats, stress: Floats) -> None:
@@ -137,7 +151,7 @@ def _warn_of_preload(strain: Floats, stress: Floats) -> None:
             f"the curve begins at {level:.4g} Pa at strain 0, where Ludwick's law has none: a "
             "preload changes its power, take it off first",
             FitWarning,
-            stacklevel=3,
+            stacklevel=4,
         )
 
 

@@ -9,6 +9,7 @@ from sklearn.base import BaseEstimator, RegressorMixin
 from sklearn.utils.validation import check_is_fitted, validate_data
 
 from softgrip.arrays import Floats, check_positive
+from softgrip.checks import takes_numbers
 from softgrip.errors import InvalidInputError
 from softgrip.materials.least_squares import Prediction, normal_equations, prediction_interval
 from softgrip.materials.table import fractional_powers, properties, table_5_1
@@ -111,6 +112,7 @@ class PowerOfNewMaterial:
     extrapolates: tuple[str, ...]
 
 
+@takes_numbers
 def predict_power(
     young_modulus: float | str,
     mixed_viscosity: float | str,

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from softgrip.arrays import Floats, read_only
+from softgrip.checks import check_finite
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.materials.database import available, locate
 from softgrip.units import MPa
@@ -54,6 +55,7 @@ class TensileTest:
             array = read_only(getattr(self, name))
             if array.ndim != 1 or array.shape != np.shape(self.strain):
                 raise InvalidInputError(name, expected="the shape (N,) of strain", got=array.shape)
+            check_finite(**{name: array})
             object.__setattr__(self, name, array)
 
 

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Value, check_stretch, tensile_curve
+from softgrip.arrays import Value, check_stretch, floats, tensile_curve
+from softgrip.checks import check_finite, takes_numbers
+from softgrip.errors import InvalidInputError
 
 
 @dataclass(frozen=True)
@@ -22,6 +24,7 @@ class YeohFit:
     rms_stress: float
 
 
+@takes_numbers
 def stress(stretch: Value, coefficients: Sequence[float]) -> Value:
     """Return the engineering stress that follows from the energy ``sum C_i (I1 - 3)**i``.
 
@@ -40,13 +43,18 @@ def stress(stretch: Value, coefficients: Sequence[float]) -> Value:
     350000.0
     """
     check_stretch(stretch)
+    (constants,) = floats(coefficients=coefficients)
+    check_finite(coefficients=constants)
+    if constants.ndim != 1:
+        raise InvalidInputError("coefficients", expected="shape (k,)", got=coefficients)
     x = stretch**2 + 2 / stretch - 3
     slope = 0 * stretch
-    for i, C in enumerate(coefficients, start=1):
+    for i, C in enumerate(constants.tolist(), start=1):
         slope = slope + i * C * x ** (i - 1)
     return 2 * (stretch - stretch**-2) * slope
 
 
+@takes_numbers
 def fit(strain: ArrayLike, engineering_stress: ArrayLike) -> YeohFit:
     """Fit three coefficients, which enter linearly, by least squares of the stress.
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, check_positive, read_only
+from softgrip.arrays import Floats, floats, intervals, read_only
 from softgrip.checks import record
 from softgrip.errors import InvalidInputError
 from softgrip.pump.elastance import ElastanceModel, elastance_filter, transitions
@@ -74,8 +74,7 @@ def estimate(
     angle: ArrayLike,
     model: ElastanceModel,
     *,
-    time: ArrayLike | None = None,
-    steps: ArrayLike | None = None,
+    time: ArrayLike,
 ) -> CapacityEstimate:
     """Run the elastance filter over a record.
 
@@ -92,21 +91,17 @@ def estimate(
         angle: Measured bending angle, rad, shape (N,); NaN where a sample is missing: the angle
             turns evenly from the one before to the one after.
         model: Time step, noise levels, prior and angle gain.
-        time: Of the samples, s, shape (N,), increasing. A record with lost or uneven rows needs it:
-            without `time` and `steps` each sample is one time step of the model after the last.
-        steps: In its place, the time from each sample to the next in time steps of the model, > 0:
-            a number or shape (N - 1,). At 2 a sample is missing between two. The flow holds, and
-            the angle turns evenly.
+        time: Of the samples, s, shape (N,), increasing. It is asked for, as rows get lost: at two
+            time steps of the model a sample is missing between two. The flow holds over it.
 
     Raises:
         InvalidInputError: If the shapes differ, fewer than two pressures or no angle are measured,
-            a value is infinite, a flow is not finite, the time does not increase, or a step is not
-            above zero.
+            a value is infinite, a flow is not finite, or the time does not increase.
     """
     measured, pushed, bent = _measured(pressure, flow, angle)
     kalman = elastance_filter(model)
     N = measured.size
-    apart = _steps(time, steps, N, model.time_step)
+    apart = _steps(time, N, model.time_step)
     since = np.concatenate([[0.0], np.cumsum(apart)]) * model.time_step
     seen = ~np.isnan(bent)
     bent = np.interp(since, since[seen], bent[seen])
@@ -133,7 +128,7 @@ def _measured(
     pressure: ArrayLike, flow: ArrayLike, angle: ArrayLike
 ) -> tuple[Floats, Floats, Floats]:
     """Return the record, checked; pressures and angles that are missing stay NaN."""
-    z, theta = (np.asarray(values, dtype=np.float64) for values in (pressure, angle))
+    z, theta = floats(pressure=pressure, angle=angle)
     known = [np.where(np.isnan(values), 0.0, values) for values in (z, theta)]
     _, pushed, _ = record(at_least=2, pressure=known[0], flow=flow, angle=known[1])
     counts = [np.count_nonzero(~np.isnan(values)) for values in (z, theta)]
@@ -146,23 +141,11 @@ def _measured(
     return z, pushed, theta
 
 
-def _steps(
-    time: ArrayLike | None, steps: ArrayLike | None, samples: int, time_step: float
-) -> Floats:
+def _steps(time: ArrayLike, samples: int, time_step: float) -> Floats:
     """Return the time from each sample to the next in time steps of the model, shape (N - 1,)."""
-    if time is not None:
-        if steps is not None:
-            raise InvalidInputError("time, steps", expected="one of them", got="both")
-        (t,) = record(at_least=2, time=time)
-        if t.size != samples or not (np.diff(t) > 0).all():
-            raise InvalidInputError(
-                "time", expected=f"shape ({samples},), increasing, s", got=t.tolist()
-            )
-        return np.asarray(np.diff(t) / time_step)
-    found = np.asarray(1.0 if steps is None else steps, dtype=np.float64)
-    check_positive(steps=found)
-    if found.shape not in ((), (samples - 1,)):
+    (t,) = record(at_least=2, time=time)
+    if t.size != samples or not (np.diff(t) > 0).all():
         raise InvalidInputError(
-            "steps", expected=f"a number or shape ({samples - 1},)", got=found.shape
+            "time", expected=f"shape ({samples},), increasing, s", got=t.tolist()
         )
-    return np.broadcast_to(found, samples - 1)
+    return intervals(t, time_step)

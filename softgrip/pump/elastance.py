@@ -23,8 +23,8 @@ import numpy as np
 from filterpy.kalman import KalmanFilter
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, check_positive
-from softgrip.checks import check_finite, check_not_negative
+from softgrip.arrays import Floats, check_positive, floats, one_number
+from softgrip.checks import check_finite, check_not_negative, takes_numbers
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,7 @@ class NoiseLevels:
     sensor: float
 
     def __post_init__(self) -> None:
+        one_number(**vars(self))
         check_not_negative(pressure_step=self.pressure_step, elastance_step=self.elastance_step)
         check_positive(sensor=self.sensor)
 
@@ -62,7 +63,7 @@ class Prior:
     elastance_std: float
 
     def __post_init__(self) -> None:
-        check_finite(pressure=self.pressure)
+        one_number(**vars(self))
         check_positive(
             pressure_std=self.pressure_std,
             elastance=self.elastance,
@@ -89,10 +90,11 @@ class ElastanceModel:
     angle_gain: float = 0.0
 
     def __post_init__(self) -> None:
+        one_number(time_step=self.time_step, angle_gain=self.angle_gain)
         check_positive(time_step=self.time_step)
-        check_finite(angle_gain=self.angle_gain)
 
 
+@takes_numbers
 def transitions(flow: ArrayLike, time_step: float) -> Floats:
     """Return the transition of [P, S] for each flow: ``[[1, Q dt], [0, 1]]``.
 
@@ -108,7 +110,7 @@ def transitions(flow: ArrayLike, time_step: float) -> Floats:
     """
     check_finite(flow=flow)
     check_positive(time_step=time_step)
-    steps = np.asarray(flow, dtype=np.float64) * time_step
+    steps = floats(flow=flow)[0].ravel() * time_step
     result = np.tile(np.eye(2), (steps.size, 1, 1))
     result[:, 0, 1] = steps
     return result

@@ -9,6 +9,7 @@ from scipy.optimize import minimize
 from scipy.stats import norm
 
 from softgrip.arrays import Floats
+from softgrip.checks import takes_numbers
 from softgrip.errors import InvalidInputError
 from softgrip.pump.capacity import estimate
 from softgrip.pump.elastance import ElastanceModel, NoiseLevels
@@ -44,6 +45,7 @@ class NoiseEstimate:
         """Return the model with the levels and the gain found."""
         return replace(model, noise=self.levels, angle_gain=self.angle_gain)
 
+    @takes_numbers
     def interval(self, name: str, confidence: float = 0.95) -> tuple[float, float]:
         """Return the interval of a level, normal in its logarithm; (0, inf) if it is not told.
 
@@ -67,15 +69,15 @@ class NoiseEstimate:
         return level / factor, level * factor
 
 
+@takes_numbers
 def estimate_noise(
     pressure: ArrayLike,
     flow: ArrayLike,
     angle: ArrayLike,
     model: ElastanceModel,
     *,
+    time: ArrayLike,
     fit_gain: bool = False,
-    time: ArrayLike | None = None,
-    steps: ArrayLike | None = None,
 ) -> NoiseEstimate:
     """Find the three levels, and the gain if wanted, that make a record's innovations most likely.
 
@@ -85,8 +87,8 @@ def estimate_noise(
     Args:
         pressure, flow, angle: As for `capacity.estimate`; N >= 50.
         model: Its noise levels are the first guess and must be above zero; the rest is held.
+        time: As for `capacity.estimate`.
         fit_gain: Whether to fit the angle gain too, from that of the model on.
-        time, steps: As for `capacity.estimate`.
 
     Raises:
         InvalidInputError: If the record is too short or the pump stands still in it, a first guess
@@ -95,11 +97,12 @@ def estimate_noise(
     start = np.array([getattr(model.noise, name) for name in NAMES])
     if not (start > 0).all():
         raise InvalidInputError("model.noise", expected="levels > 0 to start from", got=model.noise)
-    if np.size(pressure) < 50 or not np.any(flow):
+    size, pushed = np.size(pressure), np.asarray(flow)
+    if size < 50 or not pushed.any():
         raise InvalidInputError(
             "pressure, flow",
             expected="at least 50 samples, and a flow that is not zero throughout",
-            got=f"{np.size(pressure)} samples, largest flow {np.max(np.abs(flow)):g}",
+            got=f"{size} samples, largest flow {np.abs(pushed).max(initial=0.0):g}",
         )
     # A finger that doubles its elastance in a radian moves the fourth entry by one.
     unit = model.prior.elastance
@@ -110,7 +113,7 @@ def estimate_noise(
         return replace(model, noise=noise, angle_gain=gain)
 
     def cost(x: Floats) -> float:
-        return -estimate(pressure, flow, angle, at(x), time=time, steps=steps).log_likelihood
+        return -estimate(pressure, flow, angle, at(x), time=time).log_likelihood
 
     reach = float(np.log(SEARCH_FACTOR))
     bounds = [(-reach, reach)] * 3 + [(None, None)] * fit_gain

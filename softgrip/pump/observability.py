@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats, check_positive, floats
 from softgrip.errors import InvalidInputError
 
 
@@ -23,7 +23,7 @@ def observability_matrix(transitions: ArrayLike, H: ArrayLike) -> Floats:
     >>> observability_matrix([[[1, 0.5], [0, 1]]], [[1, 0]]).tolist()
     [[1.0, 0.0], [1.0, 0.5]]
     """
-    F, rows = np.asarray(transitions, dtype=np.float64), np.asarray(H, dtype=np.float64)
+    F, rows = floats(transitions=transitions, H=H)
     if F.ndim != 3 or rows.ndim != 2 or F.shape[1:] != (rows.shape[1],) * 2:
         raise InvalidInputError(
             "transitions, H", expected="shapes (K, n, n) and (m, n)", got=(F.shape, rows.shape)
@@ -51,7 +51,7 @@ def observable_rank(transitions: ArrayLike, H: ArrayLike, scale: ArrayLike | Non
     2
     """
     columns = observability_matrix(transitions, H)
-    sizes = np.ones(columns.shape[1]) if scale is None else np.asarray(scale, dtype=np.float64)
+    sizes = np.ones(columns.shape[1]) if scale is None else floats(scale=scale)[0]
     if sizes.shape != columns.shape[1:]:
         raise InvalidInputError(
             "scale", expected=f"shape {columns.shape[1:]}", got=f"shape {sizes.shape}"

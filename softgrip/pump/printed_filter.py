@@ -13,10 +13,11 @@ import numpy as np
 from filterpy.kalman import KalmanFilter
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, check_positive
-from softgrip.checks import check_finite, check_not_negative, record
+from softgrip.arrays import Floats, check_positive, floats
+from softgrip.checks import check_finite, check_not_negative, record, takes_numbers
 
 
+@takes_numbers
 def printed_filter(
     gain: float,
     *,
@@ -74,7 +75,7 @@ def run_printed(kalman: KalmanFilter, angle: ArrayLike) -> tuple[Floats, Floats]
     Raises:
         InvalidInputError: If an angle is infinite, or they are not of shape (N,).
     """
-    measured = np.asarray(angle, dtype=np.float64)
+    (measured,) = floats(angle=angle)
     missing = np.isnan(measured)
     record(at_least=1, angle=np.where(missing, 0.0, measured))
     states, covariances = np.empty((measured.size, 2)), np.empty((measured.size, 2, 2))
@@ -87,6 +88,7 @@ def run_printed(kalman: KalmanFilter, angle: ArrayLike) -> tuple[Floats, Floats]
     return states, covariances
 
 
+@takes_numbers
 def open_loop_capacity(angle: ArrayLike, gain: float, capacity: float) -> Floats:
     """Return the capacity that the process makes of known angles: ``C_0 + k sum_{j<k} theta_j``.
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats, check_positive, floats
 from softgrip.board.errors import BoardError, ConnectionLostError
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.rig_controller import CommandSequence, RigController
@@ -138,7 +138,7 @@ def reference_rows(reference: ArrayLike | None, fingers: int) -> Floats:
     """Return the reference of a log as of `record`, shape (N, fingers); (1, 0) if there is none."""
     if reference is None:
         return np.empty((1, 0))
-    rows = np.atleast_2d(np.asarray(reference, dtype=np.float64))
+    rows = np.atleast_2d(floats(reference=reference)[0])
     if rows.ndim != 2 or rows.shape[1] not in (1, fingers) or rows.size == 0:
         raise InvalidInputError(
             "reference", expected=f"a number or shape (N, {fingers})", got=rows.shape

@@ -6,7 +6,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from softgrip.arrays import Floats, read_only
+from softgrip.arrays import Floats, floats, read_only
 from softgrip.errors import InvalidInputError
 
 ELEMENTS = 8
@@ -26,7 +26,7 @@ def check_responses(responses: ArrayLike, elements: int = ELEMENTS) -> Floats:
     Raises:
         InvalidInputError: If the number of channels is another, or a value is not between 0 and 1.
     """
-    found = np.asarray(responses, dtype=np.float64)
+    (found,) = floats(responses=responses)
     if found.ndim < 1 or found.shape[-1] != elements:
         raise InvalidInputError(
             "responses", expected=f"{elements} channels, shape (..., {elements})", got=found.shape

@@ -8,11 +8,11 @@ the layer was calibrated is a line in what it gives now.
 from dataclasses import dataclass
 from typing import Self
 
-import numpy as np
 from numpy.typing import ArrayLike
 from scipy.stats import linregress
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, floats
+from softgrip.checks import check_finite
 from softgrip.errors import InvalidInputError
 
 DRIFT_WEIGHTS = (5.0, 20.0, 50.0, 70.0)
@@ -40,7 +40,8 @@ class LinearDrift:
         >>> LinearDrift.from_weights([1.0, 2.0, 3.0], [1.5, 2.5, 3.5])
         LinearDrift(offset=-0.5, gain=1.0)
         """
-        then, found = np.asarray(calibrated, dtype=float), np.asarray(now, dtype=float)
+        then, found = floats(calibrated=calibrated, now=now)
+        check_finite(calibrated=then, now=found)
         if then.shape != found.shape or then.ndim != 1 or len(set(found.tolist())) < 2:
             raise InvalidInputError(
                 "calibrated, now", expected="two arrays of one shape (N,), not all equal now",
@@ -51,7 +52,7 @@ class LinearDrift:
 
     def corrected(self, voltage: ArrayLike) -> Floats:
         """Return what voltages (V, any shape) would have been at the calibration."""
-        found: Floats = self.offset + self.gain * np.asarray(voltage, dtype=float)
+        found: Floats = self.offset + self.gain * floats(voltage=voltage)[0]
         return found
 
 
@@ -73,6 +74,6 @@ class DriftBetween:
             voltage: V, any shape.
             share: Time since the first line by the time between the two, same shape.
         """
-        part = np.asarray(share, dtype=float)
+        (part,) = floats(share=share)
         found: Floats = (1 - part) * self.start.corrected(voltage)
         return found + part * self.end.corrected(voltage)

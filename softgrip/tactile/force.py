@@ -7,6 +7,7 @@ from types import MappingProxyType
 
 from scipy.stats import foldnorm, t
 
+from softgrip.arrays import one_number
 from softgrip.errors import InvalidInputError
 from softgrip.provenance import data_rows
 from softgrip.reads import remembered
@@ -42,6 +43,7 @@ class Weighing:
     times: int = 10
 
     def __post_init__(self) -> None:
+        one_number(**vars(self))
         if not (self.true > 0 and self.deviation >= 0 and self.times >= 2):
             raise InvalidInputError(
                 "weighing", expected="true > 0, deviation >= 0, times >= 2", got=self

@@ -18,6 +18,8 @@ from sklearn.model_selection import (
     train_test_split,
 )
 
+from softgrip.arrays import Floats, floats, one_number
+from softgrip.checks import check_finite
 from softgrip.errors import InvalidInputError
 from softgrip.tactile.accuracy import Accuracy
 
@@ -43,7 +45,13 @@ def train_and_test(
     >>> train.size, test.size
     (504, 126)
     """
+    one_number(seed=seed, test=test)
     labels = np.asarray(kinds)
+    _, counts = np.unique(labels, return_counts=True)
+    if labels.ndim != 1 or min(counts, default=0) < 2 or not 0 < test < 1:
+        raise InvalidInputError(
+            "kinds, test", expected="two of each or more, and a share", got=(counts.tolist(), test)
+        )
     if groups is not None:
         count = round(1 / test)
         _check_folds(labels, groups, count)
@@ -66,6 +74,19 @@ def _check_folds(labels: NDArray[Any], groups: ArrayLike | None, folds: int) -> 
         raise InvalidInputError(
             "folds", expected=f"2 to {counts[rarest]}, the {what} of the kind {rarest}", got=folds
         )
+
+
+def _rows(responses: ArrayLike, kinds: ArrayLike) -> tuple[Floats, NDArray[Any]]:
+    """Return responses and kinds of one number of rows, checked."""
+    (found,), labels = floats(responses=responses), np.asarray(kinds)
+    if found.ndim != 2 or labels.shape != (len(found),) or not found.size:
+        raise InvalidInputError(
+            "responses, kinds",
+            expected="shapes (N, elements) and (N,)",
+            got=(found.shape, labels.shape),
+        )
+    check_finite(responses=found)
+    return found, labels
 
 
 def cross_validated(
@@ -93,7 +114,8 @@ def cross_validated(
         InvalidInputError: If a kind has fewer groups, or contacts, than there are folds: some fold
             would have none of it.
     """
-    labels = np.asarray(kinds)
+    one_number(seed=seed, folds=folds)
+    responses, labels = _rows(responses, kinds)
     _check_folds(labels, groups, folds)
     make = StratifiedKFold if groups is None else StratifiedGroupKFold
     parts = make(folds, shuffle=True, random_state=seed)
@@ -113,7 +135,8 @@ def cross_validated_by_object(
     Raises:
         InvalidInputError: If all contacts are of one object.
     """
-    labels, groups = np.asarray(kinds), np.asarray(objects)
+    responses, labels = _rows(responses, kinds)
+    groups = np.asarray(objects)
     count = np.unique(groups).size
     if count < 2:
         raise InvalidInputError("objects", expected="at least two objects", got=count)

@@ -14,12 +14,12 @@ import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from softgrip.arrays import Floats, read_only
+from softgrip.arrays import Floats, floats, read_only
 from softgrip.errors import DependentRowsWarning, InvalidInputError
 from softgrip.quantities import convert
 from softgrip.tactile.channels import (
@@ -96,16 +96,15 @@ class PadReadings:
 
 def _checked(given: Labels) -> Labels:
     """Return labels as strings or floats."""
-    labels: NDArray[Any] = np.asarray(given)
-    if labels.dtype.kind == "O":  # as of a table of pandas
-        labels = labels.astype(str if all(isinstance(x, str) for x in labels.flat) else float)
-    if labels.dtype.kind in "iu":
-        labels = labels.astype(np.float64)
-    if labels.dtype.kind not in "Uf":
+    try:
+        words = np.asarray(given, dtype=object)
+        text = words.ndim == 1 and all(isinstance(word, str) for word in words)
+        labels: Labels = words.astype(str) if text else floats(labels=given)[0]
+    except (InvalidInputError, ValueError):
         raise InvalidInputError(
-            "labels", expected="kinds as strings, or forces as numbers", got=labels.dtype.name
-        )
-    if labels.dtype.kind == "U" and (np.char.strip(labels) == "").any():
+            "labels", expected="kinds as strings, or forces as numbers", got=given
+        ) from None
+    if text and not all(word.strip() for word in words):
         raise InvalidInputError("labels", expected="a kind each", got="an empty one")
     return labels
 

@@ -17,7 +17,8 @@ from sklearn.exceptions import NotFittedError
 from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import MinMaxScaler
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, check_positive, floats, one_number
+from softgrip.checks import check_not_negative, takes_numbers
 from softgrip.errors import DataFileError, InvalidInputError, SoftgripError
 from softgrip.tactile.contact_kind import (
     ESTIMATORS,
@@ -47,6 +48,15 @@ class KindSettings:
     neighbours: int = NEIGHBOURS
     samples: float = SAMPLES
     seed: int = 0
+
+    def __post_init__(self) -> None:
+        check_not_negative(estimators=self.estimators, seed=self.seed)
+        check_positive(neighbours=self.neighbours, samples=self.samples)
+        numbers = one_number(**vars(self))
+        if any(n % 1 for n in (numbers[0], numbers[1], numbers[3])) or self.samples > 1:
+            raise InvalidInputError(
+                "settings", expected="whole numbers, and samples of up to 1", got=self
+            )
 
     def build(self, readings: PadReadings) -> Any:
         """Return the classifier, not fitted, for some readings.
@@ -88,6 +98,11 @@ class ForceSettings:
     """
 
     bandwidth: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.bandwidth is not None:
+            one_number(bandwidth=self.bandwidth)
+            check_positive(bandwidth=self.bandwidth)
 
     def build(self, readings: PadReadings) -> Any:
         """Return the regressor, not fitted, for some readings.
@@ -133,6 +148,7 @@ class PadModel:
     array(['point'], dtype='<U5')
     """
 
+    @takes_numbers
     def __init__(self, settings: Settings, *, saturation: float = TOP_COUNT) -> None:
         self.settings, self.saturation = settings, saturation
         self._fitted: tuple[PadReadings, Any] | None = None
@@ -177,7 +193,7 @@ class PadModel:
         return self._fitted
 
     def _checked(self, voltages: ArrayLike, channels: tuple[str, ...]) -> Floats:
-        given = np.asarray(voltages, dtype=np.float64)
+        (given,) = floats(voltages=voltages)
         if given.ndim != 2 or given.shape[1] != len(channels):
             raise InvalidInputError(
                 "voltages",

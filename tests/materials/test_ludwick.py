@@ -153,7 +153,7 @@ def test_modulus_must_be_positive(modulus):
         lambda: ludwick.stress(0.1, modulus, 1.5),
         lambda: ludwick.fit(STRAIN, STRAIN, young_modulus=modulus),
     ):
-        with pytest.raises(InvalidInputError, match="young_modulus: expected a finite number > 0"):
+        with pytest.raises(InvalidInputError, match="young_modulus: expected a finite number"):
             call()
 
 

@@ -39,8 +39,9 @@ def tracked(request, filling):
     measured, flow, angle, C = filling
     prior = Prior(pressure=0.0, pressure_std=500.0, elastance=0.7e9, elastance_std=3e8)
     model = ElastanceModel(DT, NoiseLevels(5.0, 5e6, 300.0), prior)
-    noise = estimate_noise(measured, flow, angle, model, fit_gain=request.param != "pressure alone")
-    found = estimate(measured, flow, angle, noise.apply(model))
+    time, fit_gain = DT * np.arange(measured.size), request.param != "pressure alone"
+    noise = estimate_noise(measured, flow, angle, model, time=time, fit_gain=fit_gain)
+    found = estimate(measured, flow, angle, noise.apply(model), time=time)
     return noise, found, found.capacity / C - 1
 
 
