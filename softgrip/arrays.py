@@ -15,6 +15,8 @@ Value = TypeVar("Value", float, Floats)
 Number = Any
 """A float, an array or a CasADi symbol: a law returns what it was given, and broadcasts."""
 
+LARGEST_STRAIN = 20.0
+"""Of a rubber: 2,000 %."""
 ROUNDING = 1e-6
 """Of a period: the times are decimals, whose difference is not exactly the period."""
 
@@ -85,7 +87,7 @@ def tensile_curve(strain: ArrayLike, stress: ArrayLike, *, at_least: int) -> tup
     """Check a measured curve of a pull test and return it as two float arrays.
 
     Args:
-        strain: Engineering strain, shape (N,), finite, >= 0, not all equal.
+        strain: Engineering strain, shape (N,), 0 to `LARGEST_STRAIN`, not all equal.
         stress: Engineering stress, shape (N,), Pa, finite, at least one value above zero.
         at_least: Smallest N that the caller can use.
 
@@ -106,6 +108,12 @@ def tensile_curve(strain: ArrayLike, stress: ArrayLike, *, at_least: int) -> tup
             "strain",
             expected="values >= 0 that are not all equal",
             got=f"values from {e.min():g} to {e.max():g}",
+        )
+    if e.max() > LARGEST_STRAIN:
+        raise InvalidInputError(
+            "strain",
+            expected=f"a share, up to {LARGEST_STRAIN:g} for a rubber, not per cent",
+            got=f"values up to {e.max():g}",
         )
     if s.max() <= 0:
         raise InvalidInputError(

@@ -31,6 +31,8 @@ from softgrip.text_cells import (
 )
 from softgrip.text_numbers import TwoReadingsError, decimal_sign, is_missing, is_number, number
 
+LARGEST = 1e30
+"""Of numbers: no quantity is above it in any unit, and squares of sums of what is stay finite."""
 ALIKE = 0.5
 """Share of the rows of a file's longest table above which another one may as well be meant."""
 
@@ -116,7 +118,7 @@ class TextTable:
         cells = self.cells(at)
         found = np.array([number(cell, self.decimal) for cell in cells])
         for line, cell, value in zip(self.lines, cells, found, strict=True):
-            if not (np.isfinite(value) or (missing and is_missing(cell))):
+            if not (np.abs(value) <= LARGEST or (missing and is_missing(cell))):
                 raise self.refusal(f"a finite number under {self.names[at]}", repr(cell), line)
         return found
 

@@ -158,6 +158,14 @@ def test_tensile_test_in_cycles_is_its_first_loading(write):
     assert ludwick.fit(test.strain, test.stress).young_modulus == pytest.approx(E, rel=1e-3)
 
 
+def test_strain_in_per_cent_or_by_another_gauge_length_is_refused(write):
+    with pytest.raises(InvalidInputError, match="not per cent"):
+        ludwick.fit(100 * STRAIN, STRESS)
+    file = write(table(["Extension [mm]", "Force [N]"], 30 * STRAIN, STRESS * 12e-6))
+    with pytest.raises(DataFileError, match="is the gauge length right"):
+        read_export(file, gauge_length="1 mm", area="12 mm^2")
+
+
 @pytest.mark.parametrize(
     ("make", "step"),
     [

@@ -9,6 +9,7 @@ from softgrip.arrays import Floats, read_only
 from softgrip.checks import check_finite
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.materials.database import available, locate
+from softgrip.text_table import LARGEST
 from softgrip.units import MPa
 
 __all__ = [
@@ -169,6 +170,6 @@ def _numbers(path: Path, line: int, row: list[str]) -> list[float]:
 
 def _is_finite(cell: str) -> bool:
     try:
-        return bool(np.isfinite(float(cell)))
+        return abs(float(cell)) <= LARGEST
     except ValueError:
         return False

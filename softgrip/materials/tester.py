@@ -11,7 +11,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from softgrip.arrays import Floats
+from softgrip.arrays import LARGEST_STRAIN, Floats
 from softgrip.errors import InvalidInputError
 from softgrip.materials.first_loading import Zero, first_loading
 from softgrip.materials.tensile import FEWEST_ROWS, TensileTest
@@ -76,6 +76,11 @@ def read_export(
     notes = list(table.notes)
     strain = _strain(table, columns, gauge_length, notes)
     stress = _stress(table, columns, area, strain, notes)
+    if np.ptp(strain) > LARGEST_STRAIN:
+        raise table.refusal(
+            f"strains of up to {LARGEST_STRAIN:g}: is the gauge length right, and the unit?",
+            f"a range of {np.ptp(strain):.4g}",
+        )
     if compression_positive:
         # Some turn the force only.
         strain = strain if strain.max() - strain[0] > strain[0] - strain.min() else -strain

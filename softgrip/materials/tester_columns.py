@@ -6,7 +6,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from softgrip.arrays import Floats
+from softgrip.arrays import LARGEST_STRAIN, Floats
 from softgrip.errors import InvalidInputError, UnknownNameError
 from softgrip.quantities import convert, si_unit
 from softgrip.text_cells import heading
@@ -38,8 +38,6 @@ _PLAIN = re.compile(
 _OF = {"strain": ("strain", "extension"), "stress": ("stress", "force")}
 """Names that a column may have: those of a share and of a length are used for one another."""
 
-LARGEST_STRAIN = 20.0
-"""Of a rubber: 2,000 %."""
 SAME = 1e-3
 """Share of its range by which one column may differ from another that says the same."""
 
