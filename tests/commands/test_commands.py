@@ -20,7 +20,7 @@ GAUGE, AREA = 30e-3, 12e-6
 
 def example(name):
     """Return the commands of a command's example, without its name and line breaks."""
-    _, _, text = str(COMMANDS[name].__doc__).partition("Example:\n")
+    _, _, text = str(COMMANDS[name].__doc__).partition("Example::\n\n")
     lines = text.replace("\\\n", " ").strip().splitlines()
     return [shlex.split(line)[1:] for line in lines]
 
