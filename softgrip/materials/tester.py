@@ -146,6 +146,7 @@ def _check_engineering(table: TextTable, stress: Floats, force: Floats) -> None:
     """Refuse a stress that is not the force on one area: a true one without its name."""
     if not force.any():
         return
+    force = force / np.abs(force).max()  # the square of a tiny one would be zero
     apart = np.abs(stress - force * float(force @ stress / (force @ force)))
     if apart.max() > PROPORTIONAL * np.abs(stress).max():
         raise table.refusal(
