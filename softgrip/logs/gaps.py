@@ -220,12 +220,19 @@ class EvenClock:
     """An even clock, and where a log's rows are on it.
 
     Attributes:
+        start: Time of the first row, s.
         period: s.
         at: Place of each row, in periods from the first, shape (N,), rising.
     """
 
+    start: float
     period: float
     at: Floats
+
+    @property
+    def time(self) -> Floats:
+        """Time of each sample of the clock, s, shape (M,)."""
+        return np.asarray(self.start + self.period * self._all)
 
     @property
     def number(self) -> NDArray[np.intp]:
@@ -266,14 +273,15 @@ def even_clock(log: Log) -> EvenClock:
     first = np.concatenate([[True], np.diff(number[order]) > 0])
     near = np.zeros(at.size, np.bool_)
     near[order] = first
-    return EvenClock(period, np.where(near & (np.abs(at - number) < EVEN), number, at))
+    return EvenClock(
+        float(log["time"][0]), period, np.where(near & (np.abs(at - number) < EVEN), number, at)
+    )
 
 
 def evened(log: Log) -> Log:
     """Return a log whose rows are those of its even clock; the same one if they are already."""
     clock = even_clock(log)
-    if clock.even:
+    if clock.even and clock.measured.all():
         return log
     columns = {name: clock.lines(values) for name, values in log.columns.items()}
-    columns["time"] = log["time"][0] + clock.period * np.arange(columns["time"].size)
-    return replace(log, columns=columns)
+    return replace(log, columns=columns | {"time": clock.time})

@@ -120,10 +120,9 @@ def judge_staircase(path: Path | str) -> StaircaseResponse:
         raise DataFileError(path, expected="a column 'reference [rad]'", got=str([*log.columns]))
     refuse_gaps(path, log, "the mean response to an edge", above=LONGEST)
     clock = even_clock(log)
-    time, angle = clock.lines(log["time"]), clock.lines(log["angle"])
-    reference = clock.nearest(log["reference"])
+    angle, reference = clock.lines(log["angle"]), clock.nearest(log["reference"])
     try:
-        since, share = mean_edge(time, reference, angle, measured=clock.measured)
+        since, share = mean_edge(clock.time, reference, angle, measured=clock.measured)
         delay = lag(reference, angle, clock.period)
     except InvalidInputError as error:
         raise DataFileError(path, expected="a staircase", got=str(error)) from None

@@ -136,25 +136,29 @@ def judge_step(
     )
 
 
-def refuse_short(path: Path | str, log: Log, *, window: float = WINDOW) -> None:
-    """Refuse a log of a step that is too short to have an end, or too slow to be averaged.
+def refuse_short(path: Path | str, after: float) -> None:
+    """Refuse a log of a step that has no end.
 
     Args:
-        path, log: What is read.
-        window: Of the averaging, s.
+        path: What is read.
+        after: How long it goes on from the step on, s.
 
     Raises:
-        DataFileError: If it does not go on for longer than `END`, or has fewer than three rows in
-            a window.
+        DataFileError: If that is not longer than `END`.
     """
-    time, period = log["time"], period_of(log)
-    if not np.ptp(time) > END:
+    if not after > END:
         raise DataFileError(
-            path,
-            expected=f"a step and more than {END:g} s after it, its end",
-            got=f"{np.ptp(time):g} s",
+            path, expected=f"a step and more than {END:g} s after it, its end", got=f"{after:g} s"
         )
-    if window and period > window / 2:
+
+
+def refuse_slow(path: Path | str, log: Log, *, window: float = WINDOW) -> None:
+    """Refuse a log whose samples are too slow to be averaged over `window` [s].
+
+    Raises:
+        DataFileError: If it has fewer than three rows in a window.
+    """
+    if window and (period := period_of(log)) > window / 2:
         raise DataFileError(
             path,
             expected=f"rows {window / 2:g} s apart or less, for {AVERAGING} over {window:g} s",
@@ -179,15 +183,15 @@ def judge_step_log(
     Raises:
         DataFileError: If the log has no reference, its reference is no single step, rows are
             missing at the start of a step at time 0, or more than `BRIDGED` of the window in one
-            place, or as of `refuse_short`.
+            place, or as of `refuse_short` and `refuse_slow`.
     """
     log = read_log(path)
     if "reference" not in log.columns:
         raise DataFileError(path, expected="a column 'reference [rad]'", got=str([*log.columns]))
-    refuse_short(path, log, window=window)
+    refuse_slow(path, log, window=window)
     refuse_gaps(path, log, AVERAGING, above=BRIDGED * window)
     clock = even_clock(log)
-    reference, time = clock.nearest(log["reference"]), clock.lines(log["time"])
+    reference, time = clock.nearest(log["reference"]), clock.time
     changes = np.flatnonzero(np.diff(reference))
     start, begun, initial = 0, 0.0, 0.0
     if changes.size:
@@ -199,6 +203,7 @@ def judge_step_log(
         raise DataFileError(
             path, expected="a reference with one step", got=f"{changes.size} changes"
         )
+    refuse_short(path, float(time[-1]) - begun)
     return judge_step(
         time[start:] - begun,
         clock.lines(log["angle"])[start:],

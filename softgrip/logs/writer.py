@@ -10,6 +10,7 @@ import numpy as np
 
 from softgrip.errors import InvalidInputError
 from softgrip.logs.schema import EVENT, LogHeader
+from softgrip.text_table import LARGEST
 
 SYNC_EVERY = 1.0
 """Longest time, s, that a written row waits for the disk, as long as rows keep coming."""
@@ -79,7 +80,7 @@ class LogWriter:
         Args:
             event: Words without comma, quote, ``#`` or anything that cannot be printed, such as a
                 break. `queued_writer.plain` makes such of any.
-            **values: A finite number for each column, in its unit; time must rise.
+            **values: A number for each column, in its unit, up to `LARGEST`; time must rise.
         """
         if values.keys() != self.units.keys():
             raise InvalidInputError("values", expected=f"{list(self.units)}", got=list(values))
@@ -90,7 +91,7 @@ class LogWriter:
         cells = []
         for name, unit in self.units.items():
             value = float(values[name])
-            if not np.isfinite(value) or (unit == "count" and value != int(value)):
+            if not abs(value) <= LARGEST or (unit == "count" and value != int(value)):
                 raise InvalidInputError(name, expected=f"a finite number in {unit}", got=value)
             cells.append(str(int(value)) if unit == "count" else repr(value))
         if not values["time"] > self._time:

@@ -17,7 +17,7 @@ from softgrip.logs.fingers import column, fingers_of
 from softgrip.logs.gaps import EvenClock, even_clock, refuse_gaps, refuse_late_start
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import Log
-from softgrip.logs.steps import AVERAGING, BRIDGED, WINDOW, judge_step, refuse_short
+from softgrip.logs.steps import AVERAGING, BRIDGED, WINDOW, judge_step, refuse_short, refuse_slow
 from softgrip.simulator.parameters import SensorParameters
 from softgrip.simulator.statics import FULL_PRESSURE
 from softgrip.units import DEG, MPa
@@ -92,10 +92,10 @@ def sensor_bands(log: Log) -> list[Band]:
 
 def finger_bands(log: Log, clock: EvenClock, finger: int, experiment: Experiment) -> list[Band]:
     """Judge the step of one finger, counted from 0; the reference steps at time 0."""
-    time, angle = log["time"], log[column("angle", finger)]
+    angle = log[column("angle", finger)]
     target = float(log[column("reference", finger)][-1])
     step = judge_step(
-        clock.lines(time), clock.lines(angle), target, about="own end", measured=clock.measured
+        clock.time, clock.lines(angle), target, about="own end", measured=clock.measured
     )
     # The averaging keeps a share 1/n of white noise in the mean that is taken away.
     samples = 2 * round(WINDOW / clock.period / 2) + 1
@@ -150,7 +150,8 @@ def judge(path: Path | str, experiment: Experiment) -> tuple[Band, ...]:
             got=", ".join(log.columns),
         )
     refuse_late_start(path, log, "the time of the step")
-    refuse_short(path, log)
+    refuse_short(path, float(log["time"][-1]))
+    refuse_slow(path, log)
     refuse_gaps(path, log, AVERAGING, above=BRIDGED * WINDOW)
     clock = even_clock(log)
     bands = sensor_bands(log)

@@ -18,12 +18,13 @@ from softgrip.logs.reader import read_log
 from softgrip.logs.schema import COLUMNS, LogHeader
 from softgrip.logs.writer import LogWriter
 from softgrip.provenance import Provenance
+from softgrip.text_table import LARGEST
 from softgrip.units import DEG
 
 HEADER = LogHeader(
     Provenance.LOGGED, "a rig", "board", 0.025, board="MEGA 2560", seed="", notes={"who": "us: two"}
 )
-finite = st.floats(allow_nan=False, allow_infinity=False)
+finite = st.floats(-LARGEST, LARGEST)
 
 
 def row(k, **values):
@@ -92,6 +93,7 @@ def test_killed_writer_leaves_all_rows_that_it_had_written(tmp_path):
     program = f"""
 import itertools, pathlib, time
 from softgrip.provenance import Provenance
+from softgrip.text_table import LARGEST
 from softgrip.logs.schema import LogHeader
 from softgrip.logs.writer import LogWriter
 from softgrip.logs.queued_writer import RunLog, plain
