@@ -269,5 +269,5 @@ def in_si(name: str, value: object, wanted: str) -> float:
     try:
         (found,) = one_number(**{name: number})  # type: ignore[arg-type]
     except InvalidInputError:
-        raise InvalidInputError(name, expected=f"a number in {wanted}", got=value) from None
+        raise InvalidInputError(name, expected=f"a finite number in {wanted}", got=value) from None
     return float(convert(found, unit, wanted, name=name))

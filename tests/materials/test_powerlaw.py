@@ -177,7 +177,7 @@ def test_extrapolation_is_named():
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, float("nan"), float("inf")])
 def test_property_out_of_range_is_named(bad):
-    with pytest.raises(InvalidInputError, match=r"mixed_viscosity: expected a finite number > 0"):
+    with pytest.raises(InvalidInputError, match="mixed_viscosity: expected a finite number"):
         predict_power(0.3e6, bad, 2.5e6)
 
 

@@ -135,7 +135,7 @@ def broken(function: Callable, sound: str, wrong: str):
     assert source.count(sound) >= 1, f"{sound!r} is not in {function.__qualname__}"
     namespace: dict = {}
     exec(source.replace(sound, wrong), function.__globals__ | {"__name__": "broken"}, namespace)
-    return namespace[function.__name__].__code__
+    return inspect.unwrap(namespace[function.__name__]).__code__
 
 
 @pytest.fixture
@@ -143,7 +143,7 @@ def put(monkeypatch):
     """Put a code in the place of a function's, with nothing remembered before and after."""
 
     def put(function, code):
-        monkeypatch.setattr(function, "__code__", code)
+        monkeypatch.setattr(inspect.unwrap(function), "__code__", code)
         forget()
 
     yield put
