@@ -35,14 +35,20 @@ one length, got 'twice'
     """
     kinds = get_type_hints(function)
     readers = {name: found for name, kind in kinds.items() if (found := _reader(kind))}
-    taken = signature(function)
+    # By place: to bind a signature takes longer than many a law.
+    places = [(name, readers.get(name)) for name in signature(function).parameters]
 
     @wraps(function)
     def checked(*args: Given.args, **kwargs: Given.kwargs) -> Returned:
-        given = taken.bind(*args, **kwargs)
-        for name in given.arguments.keys() & readers.keys():
-            given.arguments[name] = readers[name](name, given.arguments[name])
-        return function(*given.args, **given.kwargs)
+        read = [
+            reader(name, value) if reader else value
+            for (name, reader), value in zip(places, args, strict=False)
+        ]
+        named = {
+            name: readers[name](name, value) if name in readers else value
+            for name, value in kwargs.items()
+        }
+        return function(*read, *args[len(places) :], **named)  # type: ignore[arg-type]
 
     return checked
 
