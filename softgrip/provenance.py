@@ -14,6 +14,7 @@ from io import StringIO
 from pathlib import Path
 
 from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.files import existing
 
 
 class Provenance(StrEnum):
@@ -75,8 +76,7 @@ def describe(path: Path) -> DataFile:
     Raises:
         DataFileError: If there is no such file, or its header does not state provenance and source.
     """
-    if not path.is_file():
-        raise DataFileError(path, expected="a file", got="none")
+    existing(path)
     header: dict[str, str] = {}
     for line in _lines(path):
         if not line.startswith("#"):

@@ -7,6 +7,7 @@ from io import StringIO
 from pathlib import Path
 
 from softgrip.errors import DataFileError
+from softgrip.files import existing
 from softgrip.quantities import is_unit
 
 SEPARATORS = {"\t": "tab", ";": "semicolon", ",": "comma"}
@@ -27,9 +28,7 @@ def text_of(path: Path) -> str:
     Raises:
         DataFileError: If there is no such file, or it is no text.
     """
-    if not path.is_file():
-        raise DataFileError(path, expected="a file", got="none")
-    raw = path.read_bytes()
+    raw = existing(path).read_bytes()
     if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
         encoding = "utf-16"
     else:

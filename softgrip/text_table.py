@@ -15,6 +15,7 @@ import numpy as np
 
 from softgrip.arrays import Floats
 from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.files import path_of
 from softgrip.text_cells import (
     BLANKS,
     SEPARATORS,
@@ -151,7 +152,7 @@ def read_table(
         len(separator) != 1 or separator.isalnum() or separator in "\"'."
     ):
         raise InvalidInputError("separator", expected="one sign, such as ';'", got=separator)
-    file = Path(path)
+    file = path_of(path)
     text = text_of(file)
     separator = separator or declared_separator(text)
     found = _by_separator(file, text, separator)

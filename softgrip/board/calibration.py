@@ -14,6 +14,7 @@ from softgrip.arrays import Floats, check_positive, floats
 from softgrip.board.errors import WrongBoardError
 from softgrip.checks import takes_numbers
 from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.files import path_of
 from softgrip.provenance import Provenance, cells, describe
 from softgrip.simulator.parameters import SensorParameters
 
@@ -245,7 +246,7 @@ def save(
 
     What was read on a simulated rig or an emulated board is of the provenance simulated.
     """
-    with Path(path).open("x", encoding="utf-8", newline="") as out:
+    with path_of(path).open("x", encoding="utf-8", newline="") as out:
         out.write(f"# provenance: {provenance}\n# source: {source}\n# board: {calibration.board}\n")
         table = csv.writer(out, lineterminator="\n")
         named: list[tuple[str, SensorCurve]] = [("pressure [Pa]", calibration.pressure)]
@@ -263,7 +264,7 @@ def load(path: Path | str) -> BoardCalibration:
     Raises:
         DataFileError: If the file is not one.
     """
-    file = Path(path)
+    file = path_of(path)
     describe(file)
     text = file.read_text(encoding="utf-8").splitlines()
     boards = [line.partition(":")[2].strip() for line in text if line.startswith("# board:")]

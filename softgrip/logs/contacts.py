@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 from softgrip.arrays import Floats
 from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.files import path_of
 from softgrip.logs.gaps import period_of
 from softgrip.logs.reader import read_log
 from softgrip.logs.schema import MORE_COLUMNS, PAD_CHANNELS, Log
@@ -190,7 +191,7 @@ class _PadLog:
 
 def _open(path: Path | str, labels: Sequence[Label]) -> _PadLog:
     """Read a log and what is said of its rows."""
-    file = Path(path)
+    file = path_of(path)
     log = read_log(file)
     if log.header.set_up != "pad":
         raise DataFileError(file, expected="the set-up pad", got=log.header.set_up)

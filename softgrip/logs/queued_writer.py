@@ -8,6 +8,7 @@ from queue import SimpleQueue
 from typing import Self
 
 from softgrip.errors import SoftgripError
+from softgrip.files import path_of
 from softgrip.logs.schema import LogHeader
 from softgrip.logs.writer import INSTEAD, LogWriter
 
@@ -29,7 +30,7 @@ class RunLog:
     def __init__(
         self, path: Path, header: LogHeader, *, more: Mapping[str, str] | None = None
     ) -> None:
-        self.path, self.failure = Path(path), ""
+        self.path, self.failure = path_of(path), ""
         self._log = LogWriter(path, header, more=more)
         self._last: tuple[str, dict[str, float]] | None = None
         self._rows: SimpleQueue[tuple[str, dict[str, float]] | None] = SimpleQueue()

@@ -9,6 +9,7 @@ import numpy as np
 
 from softgrip.arrays import Floats
 from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.files import path_of
 from softgrip.logs.gaps import check_period, crowded, gaps_of, late_start, places, uneven
 from softgrip.logs.mapping import LogMapping, mapped, mapping_beside
 from softgrip.logs.schema import EVENT, SCHEMA, SET_UPS, Log, LogHeader, SetUp, known_unit
@@ -43,7 +44,7 @@ def read_log(path: Path | str, *, columns: Mapping[str, str] | None = None) -> L
             the rows are another time apart than the header says. It names the file and, where
             known, the line.
     """
-    file = Path(path)
+    file = path_of(path)
     told = mapping_beside(file) if columns is None else LogMapping(columns)
     table = read_table(file, **told.text)
     keys = _keys(table)

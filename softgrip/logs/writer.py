@@ -9,6 +9,7 @@ from typing import Self
 import numpy as np
 
 from softgrip.errors import InvalidInputError
+from softgrip.files import path_of
 from softgrip.logs.schema import EVENT, LogHeader
 from softgrip.text_table import LARGEST
 
@@ -57,7 +58,7 @@ class LogWriter:
             if any(c in name + unit for c in '",#\r\n[]') or name == EVENT:
                 raise InvalidInputError("more", expected="plain names and units", got=(name, unit))
         try:
-            self._file = Path(path).open("x", encoding="utf-8", newline="", buffering=1)  # noqa: SIM115
+            self._file = path_of(path).open("x", encoding="utf-8", newline="", buffering=1)
         except FileExistsError:
             raise InvalidInputError(
                 "path", expected="a file that does not exist yet", got=str(path)

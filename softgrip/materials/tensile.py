@@ -8,6 +8,7 @@ import numpy as np
 from softgrip.arrays import Floats, read_only
 from softgrip.checks import check_finite
 from softgrip.errors import DataFileError, InvalidInputError
+from softgrip.files import existing
 from softgrip.materials.database import available, locate
 from softgrip.text_table import LARGEST
 from softgrip.units import MPa
@@ -70,14 +71,14 @@ def load(name: str) -> TensileTest:
     return replace(parse(locate(name)), name=name)
 
 
-def parse(path: Path) -> TensileTest:
+def parse(path: Path | str) -> TensileTest:
     """Read one file of the database; the test takes the file's name.
 
     Raises:
         DataFileError: If the file is not as `read_rows` expects it.
     """
     _, true_strain, true_stress, strain, stress = read_rows(path).T
-    return TensileTest(path.stem, strain, stress * MPa, true_strain, true_stress * MPa)
+    return TensileTest(Path(path).stem, strain, stress * MPa, true_strain, true_stress * MPa)
 
 
 def up_to_peak(test: TensileTest) -> TensileTest:
@@ -106,7 +107,7 @@ def hundred_percent_modulus(test: TensileTest) -> float:
     return float(np.interp(1.0, test.strain, test.stress))
 
 
-def read_rows(path: Path) -> Floats:
+def read_rows(path: Path | str) -> Floats:
     """Read the rows of numbers of a file, shape (N, 5), in the units of `COLUMNS`.
 
     A file has header rows, the row of `COLUMNS`, then rows of finite numbers. Cells are separated
@@ -116,6 +117,7 @@ def read_rows(path: Path) -> Floats:
     Raises:
         DataFileError: If the file does not hold this; names the line and what was expected there.
     """
+    path = existing(path)
     lines = _lines(path)
     cells = [[cell.strip() for cell in line.split(";")] for line in lines]
     start = next((i for i, row in enumerate(cells) if set(row) & set(COLUMNS)), None)

@@ -16,6 +16,7 @@ from softgrip.control.loop import Controller
 from softgrip.control.pid import PERIOD
 from softgrip.control.rig_controller import Tracking
 from softgrip.errors import InvalidInputError
+from softgrip.files import path_of
 from softgrip.logs.fingers import column
 from softgrip.rig.interface import Rig
 from softgrip.rig.record import Recording, Row, record
@@ -117,7 +118,7 @@ class LiveRun(threading.Thread):
     ) -> None:
         check_period(rig)
         super().__init__(name="softgrip run", daemon=True)
-        self.rig, self.experiment, self.path = rig, experiment, Path(path)
+        self.rig, self.experiment, self.path = rig, experiment, path_of(path)
         self.samples: list[Sample] = []
         self.state = "ready"
         self.recording: Recording | None = None

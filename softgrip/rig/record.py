@@ -13,6 +13,7 @@ from softgrip.board.errors import BoardError, ConnectionLostError
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.rig_controller import CommandSequence, RigController
 from softgrip.errors import InvalidInputError
+from softgrip.files import path_of
 from softgrip.logs.fingers import column
 from softgrip.logs.queued_writer import RunLog, plain
 from softgrip.rig.interface import Rig
@@ -104,7 +105,7 @@ def record(
     samples = 1
     seen = connection.measure()
     start = float(seen.time)
-    with RunLog(Path(path), header, more=units) as log:
+    with RunLog(path_of(path), header, more=units) as log:
         try:
             log.write(event=plain(connection.take_event()), **log_row(0.0, 0.0, seen, followed[0]))
             while float(seen.time) - start < duration - connection.period / 2:
@@ -131,7 +132,7 @@ def record(
                 BoardError
             ) as error:  # a board that does not hear has stopped the motor by itself
                 log.note(f"the stop was not heard: {error}")
-    return Recording(Path(path), samples, tuple(lost), log.failure)
+    return Recording(path_of(path), samples, tuple(lost), log.failure)
 
 
 def reference_rows(reference: ArrayLike | None, fingers: int) -> Floats:

@@ -9,6 +9,7 @@ from softgrip.board.driver import Board
 from softgrip.board.protocol import TELEMETRY_PERIOD
 from softgrip.board.session import Telemetry
 from softgrip.errors import InvalidInputError
+from softgrip.files import path_of
 from softgrip.logs.contacts import PRESS, REST, WEIGHT
 from softgrip.logs.queued_writer import RunLog, plain
 from softgrip.logs.schema import PAD_CHANNELS
@@ -74,7 +75,7 @@ def record_pad(
     notes = {"shows": plain(shows)} if shows else {}
     header = replace(rig.header(), set_up="pad", period=TELEMETRY_PERIOD, notes=notes)
     start, samples, end = None, 0, 0.0
-    with RunLog(Path(path), header) as log:
+    with RunLog(path_of(path), header) as log:
         for words, seconds in given:
             if words:
                 say(words)
@@ -88,7 +89,7 @@ def record_pad(
                 log.write(event=event, **row)
                 event, samples = "", samples + 1
                 progress(row, duration)
-    return Recording(Path(path), samples, (), log.failure)
+    return Recording(path_of(path), samples, (), log.failure)
 
 
 def _row(told: Telemetry, time: float) -> Row:

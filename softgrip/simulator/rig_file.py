@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from softgrip.errors import DataFileError, InvalidInputError, SoftgripError
+from softgrip.files import path_of
 from softgrip.kept import write_data
 from softgrip.logs.fingers import column
 from softgrip.provenance import Provenance, describe
@@ -86,7 +87,7 @@ def read_rig(path: Path | str) -> FittedRig:
         DataFileError: If it is no such file, or a row is missing, twice, unknown, or damaged. It
             names the line and the column.
     """
-    file = Path(path)
+    file = path_of(path)
     provenance = describe(file).provenance
     text = file.read_text(encoding="utf-8").splitlines()
     notes = dict(

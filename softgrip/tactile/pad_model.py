@@ -20,6 +20,7 @@ from sklearn.preprocessing import MinMaxScaler
 from softgrip.arrays import Floats, check_positive, floats, one_number
 from softgrip.checks import check_not_negative, takes_numbers
 from softgrip.errors import DataFileError, InvalidInputError, SoftgripError
+from softgrip.files import existing, path_of
 from softgrip.tactile.contact_kind import (
     ESTIMATORS,
     NEIGHBOURS,
@@ -242,7 +243,7 @@ def save(model: PadModel, path: Path | str) -> None:
         "groups": None if readings.groups is None else readings.groups.tolist(),
         "answers": model.predict(_examples(readings)).tolist(),
     }
-    Path(path).write_text(json.dumps(record) + "\n", encoding="utf-8")
+    path_of(path).write_text(json.dumps(record) + "\n", encoding="utf-8")
 
 
 def load(path: Path | str) -> PadModel:
@@ -252,9 +253,7 @@ def load(path: Path | str) -> PadModel:
         DataFileError: If the file is no such model, is of another version, holds what no model can
             be fitted to, or the model answers otherwise than when it was saved.
     """
-    file = Path(path)
-    if not file.is_file():
-        raise DataFileError(file, expected="a file", got="none")
+    file = existing(path)
     try:
         record = json.loads(file.read_text(encoding="utf-8"))
         header = record["format"], record["version"]
