@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from softgrip.errors import DataFileError
+from softgrip.files import existing
 from softgrip.text_cells import heading
 from softgrip.text_table import TextTable
 
@@ -51,7 +52,7 @@ def mapping_beside(path: Path) -> LogMapping:
     Raises:
         DataFileError: If it is no TOML, or has other tables, keys or values than the above.
     """
-    file = path.with_suffix(".toml")
+    file = existing(path).with_suffix(".toml")
     if file == path or not file.is_file():
         return LogMapping()
     try:
