@@ -42,6 +42,7 @@ lab: $(READY)  ## open the chapters as notebooks in JupyterLab
 	@mkdir -p $(LAB)
 	@echo '{"@jupyterlab/docmanager-extension:plugin": {"defaultViewers": {"markdown": "Jupytext Notebook"}}}' \
 	  > $(LAB)/overrides.json
+	@$(BIN)/python -m book.build.vendor
 	@$(BIN)/jupyter lab --notebook-dir=book
 
 figures: $(READY)  ## write every figure and table to book/_build/figures

@@ -15,6 +15,12 @@ Value = TypeVar("Value", float, Floats)
 Number = Any
 """A float, an array or a CasADi symbol: a law returns what it was given, and broadcasts."""
 
+
+def is_symbol(value: object) -> bool:
+    """Tell whether a value is a symbol of CasADi, which has no range that could be checked."""
+    return type(value).__module__.startswith("casadi")
+
+
 LARGEST_STRAIN = 20.0
 """Of a rubber: 2,000 %."""
 ROUNDING = 1e-6
@@ -40,8 +46,11 @@ def floats(**values: ArrayLike) -> tuple[Floats, ...]:
     >>> [array.tolist() for array in floats(time=[0, 1], level="2.5")]
     [[0.0, 1.0], 2.5]
     """
-    found = []
+    found: list[Any] = []
     for name, value in values.items():
+        if is_symbol(value):
+            found.append(value)
+            continue
         try:
             if value is None or hasattr(value, "magnitude"):
                 raise TypeError
@@ -63,15 +72,19 @@ def one_number(**values: float) -> tuple[float, ...]:
     """
     arrays = floats(**values)
     for (name, value), array in zip(values.items(), arrays, strict=True):
+        if is_symbol(array):
+            continue
         if array.ndim or not np.isfinite(array):
             raise InvalidInputError(name, expected="a finite number", got=value)
-    return tuple(float(array) for array in arrays)
+    return tuple(array if is_symbol(array) else float(array) for array in arrays)  # type: ignore[misc]
 
 
 def check_positive(**values: ArrayLike) -> None:
     """Raise InvalidInputError for the first value, number or array, not finite and above zero."""
     for name, value in values.items():
         (array,) = floats(**{name: value})
+        if is_symbol(array):
+            continue
         if not (array.size and np.isfinite(array).all() and (array > 0).all()):
             raise InvalidInputError(name, expected="a finite number > 0", got=value)
 

@@ -9,7 +9,7 @@ from typing import Any, Literal, ParamSpec, TypeVar, get_args, get_origin, get_t
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, Value, check_positive, floats, one_number
+from softgrip.arrays import Floats, Value, check_positive, floats, is_symbol, one_number
 from softgrip.errors import InvalidInputError, NotFiniteError
 
 Given = ParamSpec("Given")
@@ -80,7 +80,7 @@ def _union(kinds: list[Any]) -> Any:
 
 def _value(name: str, value: Any) -> Any:
     (found,) = floats(**{name: value})
-    return found if found.ndim else float(found)
+    return found if is_symbol(found) or found.ndim else float(found)
 
 
 def _whole(name: str, value: object) -> int:
@@ -100,6 +100,8 @@ def check_not_negative(**values: ArrayLike) -> None:
     """Raise InvalidInputError for the first value that is not all finite and >= 0."""
     for name, value in values.items():
         (array,) = floats(**{name: value})
+        if is_symbol(array):
+            continue
         if not (array.size and np.isfinite(array).all() and (array >= 0).all()):
             raise InvalidInputError(name, expected="finite numbers >= 0", got=value)
 

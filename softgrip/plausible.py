@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import floats
+from softgrip.arrays import floats, is_symbol
 from softgrip.errors import InvalidInputError
 
 Units = tuple[tuple[str, float], ...]
@@ -47,6 +47,8 @@ class Plausible:
         softgrip.errors.InvalidInputError: length: expected the length of a finger, 0.001 to 1 m \
 (from micro-grippers to arms of 1 m), got '110: probably mm (0.11 m)'
         """
+        if is_symbol(value):
+            return
         numbers = np.atleast_1d(floats(**{name: value})[0])
         outside = numbers[~((numbers >= self.low) & (numbers <= self.high))]
         if not outside.size:

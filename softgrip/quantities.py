@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, floats, one_number
+from softgrip.arrays import Floats, floats, is_symbol, one_number
 from softgrip.errors import InvalidInputError, UnknownNameError
 
 if TYPE_CHECKING:
@@ -257,6 +257,8 @@ def in_si(name: str, value: object, wanted: str) -> float:
     (20000.0, 20000.0)
     """
     number, unit = value, wanted
+    if is_symbol(value):
+        return value  # type: ignore[return-value]
     if isinstance(value, str):
         words = _WORDS.fullmatch(value)
         if words is None:

@@ -86,6 +86,16 @@ def announce(app: Sphinx, page: str, _source: list[str]) -> None:
     os.environ.update(announced(app, page))
 
 
+def add_explorers(
+    app: Sphinx, _page: str, _template: str, context: dict[str, Any], _tree: Any
+) -> None:
+    """Give the pages that have figures with sliders, and only these, what draws them."""
+    if 'class="explorer"' in context.get("body", ""):
+        # The theme adds the book's own script by itself.
+        for script in ("plot/d3.min.js", "plot/plot.umd.min.js"):
+            app.add_js_file(script, loading_method="defer")
+
+
 def remove_former_modules(app: Sphinx, _error: Exception | None) -> None:
     """Remove source pages of modules that are no more: a build adds, but never takes away."""
     pages = Path(app.outdir) / "_modules"
@@ -108,6 +118,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("env-get-outdated", find_stale_pages)
     app.connect("env-before-read-docs", run_pages)
     app.connect("source-read", announce)
+    app.connect("html-page-context", add_explorers)
     app.connect("build-finished", remove_former_modules)
     app.add_css_file("softgrip.css")
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}

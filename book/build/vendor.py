@@ -1,7 +1,8 @@
 """The book's scripts, fetched at build time so that its pages need no network.
 
-MathJax and the widget manager come as npm packages, at pinned versions whose archives are checked
-against a known digest. They are laid under ``_vendor/`` and never committed.
+MathJax, what draws figures with sliders, and the widget manager come as npm packages, at pinned
+versions whose archives are checked against a known digest. They are laid under ``_vendor/`` and
+never committed.
 """
 
 import base64
@@ -29,6 +30,18 @@ class Package:
 
 
 PACKAGES = (
+    Package(
+        "d3",
+        "7.9.2",
+        "sha512-ZKb/mONPVKzaO5UlcWcwN8bS4ezvQaYu+bsou+XgNABdGC800kwH651ADTbbTxMPHW13UlvbQafdmJQDk1w7Mg==",
+        (("dist/d3.min.js", "_static/plot/d3.min.js"),),
+    ),
+    Package(
+        "@observablehq/plot",
+        "0.6.17",
+        "sha512-/qaXP/7mc4MUS0s4cPPFASDRjtsWp85/TbfsciqDgU1HwYixbSbbytNuInD8AcTYC3xaxACgVX06agdfQy9W+g==",
+        (("dist/plot.umd.min.js", "_static/plot/plot.umd.min.js"),),
+    ),
     Package(
         "mathjax",
         "3.2.2",
@@ -148,3 +161,8 @@ def ensure(folder: Path) -> bool:
         return False
     stamp.write_text(wanted)
     return True
+
+
+if __name__ == "__main__":
+    if not ensure(Path(__file__).parents[1] / "_vendor"):
+        raise SystemExit("The npm registry cannot be reached.")

@@ -1,15 +1,20 @@
-"""What the sliders of Chapter 2 draw."""
+"""What the sliders of Chapter 2 move."""
 
-import matplotlib as mpl
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import reduce
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
 
-from book.chapter_2.figures_force import draw_points
 from book.chapter_2.figures_pad import FORCE, draw_elements, draw_estimate, outline
 from book.chapter_2.forces import weight_points
 from book.chapter_2.logs import TRAINING, contacts
-from book.companion.style import BLUE, GREY, WIDTH, still, style
-from softgrip.arrays import Floats
+from book.companion.style import GREY, still, style
+from book.explore.plot import Dots, Line, Outline, Panel, Plot
+from book.explore.scan import Numbers, scan, total
+from softgrip.arrays import Number
 from softgrip.errors import InvalidInputError
 from softgrip.reads import remembered
 from softgrip.simulator.pad import ideal_responses
@@ -19,90 +24,145 @@ from softgrip.tactile.contact_kind import bagged_neighbours
 from softgrip.tactile.element import STATED_MODULUS, Element, Shape, cross_section, shortening
 from softgrip.tactile.element_sensitivity import AT_REST, resistance_under
 from softgrip.tactile.fast_kind import FastKind
-from softgrip.tactile.nadaraya_watson import NadarayaWatson, left_out_error
 from softgrip.tactile.pad_layout import THREE_TWO_THREE
 from softgrip.units import DEG, GRAM_FORCE, MM
 
 POISSON = 0.49
+FAR = 1e9
+"""Squared distance of a point that is left out, in bandwidths: its weight is 0."""
 
 
-def outlines(element: Element, force: float) -> tuple[Floats, Floats]:
-    """Return the right side of an element before and after, shape (2, n) each: half width, height.
+def element(shape: Shape, load: Number, cut: Number) -> dict[str, Any]:
+    """Return an element 6 mm wide and 3 mm high, before and under a load.
 
     Each slice is shortened by its own stress as in Eq. (2.1), and widened by Poisson's ratio.
-
-    Args:
-        element: With a flat top.
-        force: N, >= 0.
-    """
-    height = np.linspace(0, element.height, 401)
-    area = cross_section(element, height)
-    half = element.width / 2 * np.sqrt(area / element.base_area)
-    strain = force / (STATED_MODULUS * area)
-    steps = np.diff(height) * (strain[1:] + strain[:-1]) / 2
-    sunk = height - np.concatenate([[0], np.cumsum(steps)])
-    return np.stack([half, height]), np.stack([half * (1 + POISSON * strain), sunk])
-
-
-def draw_element(shape: Shape, load: float, cut: float) -> Figure:
-    """Draw an element 6 mm wide and 3 mm high before and under a load.
 
     Args:
         shape: "cylinder", "hemisphere" or "pyramid".
         load: N, >= 0.
         cut: Width of the flat top as a part of the base's, above 0; a cylinder has 1 in any case.
     """
-    element = Element(shape, cut=1.0 if shape == "cylinder" else cut)
-    before, after = outlines(element, load)
-    moved = shortening(element, load)
-    changed = resistance_under(element, load) / AT_REST
-    stretched = load / (STATED_MODULUS * element.top_area)
-    # Axes at a fixed place: a layout engine would move them from frame to frame.
-    with style(), mpl.rc_context({"figure.constrained_layout.use": False}):
-        drawn = Figure(figsize=(WIDTH, 3.0))
-        axes = drawn.add_axes((0.12, 0.2, 0.85, 0.62))
-        for (half, height), colour, dash in ((before, GREY, "--"), (after, BLUE, "-")):
-            x, y = np.r_[-half, half[::-1]] / MM, np.r_[height, height[::-1]] / MM
-            axes.plot(x, y, color=colour, ls=dash)
-            if colour == BLUE:
-                axes.fill(x, y, color=BLUE, alpha=0.15)
-        axes.set(xlim=(-5, 5), ylim=(0, 3.4), xlabel="mm", ylabel="mm", aspect="equal")
-        axes.set_title(
-            f"shorter by {moved / MM:.3f} mm, resistance {changed:.3f} times", fontsize=9.5
+    made = Element(shape, cut=1.0 if shape == "cylinder" else cut)
+    part = np.linspace(0, 1, 401)
+    height = part * made.height
+
+    def slice_(state: Numbers, row: Numbers, given: Numbers) -> tuple[Numbers, Numbers]:
+        sunk, above, strain_below, first = state
+        (y,), (force, cut) = row, given
+        area = cross_section(replace(made, cut=cut), y)
+        strain = force / (STATED_MODULUS * area)
+        # Trapezoids between slices; the first one has none below it.
+        sunk = sunk + (1 - first) * (y - above) * (strain + strain_below) / 2
+        half = made.width / 2 * (area / made.base_area) ** 0.5
+        wider = half * (1 + POISSON * strain)
+        return (sunk, y, strain, 0.0), (half / MM, wider / MM, (y - sunk) / MM)
+
+    half, widened, lowered = scan(slice_, (0.0, 0.0, 0.0, 1.0), height, (load, made.cut))
+    moved, stretched = shortening(made, load), load / (STATED_MODULUS * made.top_area)
+    return {
+        "half_width": half,
+        "height": height / MM,
+        "half_width_under": widened,
+        "height_under": lowered,
+        "moved": moved / MM,
+        "changed": resistance_under(made, load) / AT_REST,
+        "stretched": stretched,
+        "beyond": stretched > 0.5,
+    }
+
+
+ELEMENT_PLOT = Plot(
+    [
+        Panel(
+            [
+                Outline("half_width", "height", "before", colour=GREY, dash="5 3", fill=0,
+                        mirrored=True),
+                Outline("half_width_under", "height_under", "under the load", mirrored=True),
+            ],
+            x=(-5, 5), y=(0, 3.4), x_label="mm", y_label="mm", equal=True,
         )
-        if stretched > 0.5:
-            drawn.text(0.12, 0.93, f"strain {stretched:.1f} at the top: beyond a linear law",
-                       fontsize=9)  # fmt: skip
-    return drawn
+    ],
+    title="shorter by {moved:.3f} mm, resistance {changed:.3f} times",
+    cases=[
+        (
+            "beyond",
+            "shorter by {moved:.3f} mm, resistance {changed:.3f} times; "
+            "strain {stretched:.1f} at the top: beyond a linear law",
+        )
+    ],
+)  # fmt: skip
 
 
-def draw_bandwidth(bandwidth: float) -> Figure:
-    """Draw the Nadaraya-Watson regressor on the simulated layer's 69 points.
+def bandwidth(sigma: Number) -> dict[str, Any]:
+    """Return the Nadaraya-Watson regressor on the simulated layer's 69 points.
 
-    The title says its error on points, and on whole weights, that are left out.
+    Its errors are root mean squares on points, and on whole weights, that are left out.
 
     Args:
-        bandwidth: sigma of Eq. (2.7), V, > 0.
+        sigma: Bandwidth of Eq. (2.7), V, > 0.
     """
-    voltage, force = weight_points()
-    model = NadarayaWatson(bandwidth).fit(voltage[:, None], force)
-    grid = np.linspace(-0.5, 4.5, 1001)
-    points, weights = (
-        left_out_error(voltage[:, None], force, bandwidth, groups=groups) / GRAM_FORCE
-        for groups in (None, force)
-    )
-    with style():
-        drawn, axes = still(3.2)
-        draw_points(axes)
-        axes.plot(grid, model.predict(grid[:, None]) / GRAM_FORCE, color=BLUE, label="regressor")
-        axes.set(
-            xlabel="voltage (V)",
-            ylabel="force (gf)",
-            ylim=(-5, 80),
-            title=f"left out: points {points:.1f} gf, weights {weights:.1f} gf",
+    points, targets = (values.tolist() for values in weight_points())
+    grid = np.linspace(-0.5, 4.5, 251)
+
+    def at(_: Numbers, row: Numbers, given: Numbers) -> tuple[Numbers, Numbers]:
+        return (), (average(row[0], points, targets, given[0]),)
+
+    def without(_: Numbers, row: Numbers, given: Numbers) -> tuple[Numbers, Numbers]:
+        x, force, number = row
+        others = [1.0 * (number != k) for k in range(len(points))]
+        lighter = [1.0 * (force != t) for t in targets]
+        return (), tuple(
+            (average(x, points, targets, given[0], kept) - force) ** 2 for kept in (others, lighter)
         )
-        axes.legend(loc="upper left")
-    return drawn
+
+    (curve,) = scan(at, (), grid, (sigma,))
+    rows = np.column_stack([points, targets, np.arange(len(points))])
+    by_point, by_weight = (
+        (total(squares) / len(points)) ** 0.5 for squares in scan(without, (), rows, (sigma,))
+    )
+    return {
+        "voltage": grid,
+        "force": curve / GRAM_FORCE,
+        "points": by_point / GRAM_FORCE,
+        "weights": by_weight / GRAM_FORCE,
+    }
+
+
+def average(
+    x: Number,
+    points: Sequence[float],
+    targets: Sequence[float],
+    sigma: Number,
+    kept: Numbers | None = None,
+) -> Number:
+    """Return the average of the targets at x, weighted by the Gaussian kernel, Eq. (2.6).
+
+    The weights are relative to that of the nearest point, as in `kernel_average.gaussian`; points
+    that are not kept, 0 in place of 1, have none.
+    """
+    squares = [((x - p) / sigma) ** 2 for p in points]
+    if kept is not None:
+        squares = [s + FAR * (1 - keep) for s, keep in zip(squares, kept, strict=True)]
+    nearest = reduce(np.minimum, squares)
+    weights = [np.exp((nearest - s) / 2) for s in squares]
+    return sum(w * t for w, t in zip(weights, targets, strict=True)) / sum(weights)
+
+
+def bandwidth_plot() -> Plot:
+    """Return the plot of `bandwidth`."""
+    voltage, force = weight_points()
+    return Plot(
+        [
+            Panel(
+                [
+                    Dots(voltage.tolist(), (force / GRAM_FORCE).tolist(), "weights", radius=2.5),
+                    Line("voltage", "force", "regressor"),
+                ],
+                x=(-0.5, 4.5), y=(-5, 80), x_label="voltage (V)", y_label="force (gf)",
+            )
+        ],
+        title="left out: points {points:.1f} gf, weights {weights:.1f} gf",
+    )  # fmt: skip
 
 
 @remembered

@@ -1,6 +1,7 @@
-"""What the sliders of Chapter 3 draw."""
+"""What the sliders of Chapter 3 move."""
 
 from textwrap import wrap
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -9,8 +10,9 @@ from matplotlib.figure import Figure
 from book.chapter_3.finger_drawing import draw_section
 from book.chapter_3.regulators import designed_on
 from book.chapter_4.identified_model import IdentifiedModel, identified_model
-from book.companion.style import BLUE, GREY, LINEAR, ORANGE, PRINTED, WIDTH, still, style
-from softgrip.actuator.bending import Finger, free_bending
+from book.companion.style import BLUE, GREY, LINEAR, ORANGE, PRINTED, SKY, WIDTH, still, style
+from book.explore.plot import Level, Line, Outline, Panel, Plot
+from softgrip.actuator.bending import Finger, bending_angle, free_bending
 from softgrip.actuator.design import (
     SCRIPT_MASS,
     SCRIPT_POWER,
@@ -21,6 +23,7 @@ from softgrip.actuator.design import (
 from softgrip.actuator.frequency import natural_frequency
 from softgrip.actuator.optimize import optimal_design
 from softgrip.actuator.section import Section, torque
+from softgrip.arrays import Number
 from softgrip.control.limited_lqr import limited_loop
 from softgrip.control.loop import SPEED_LIMIT
 from softgrip.control.lqr import Weights, lqr_gain
@@ -55,15 +58,54 @@ def _draw(finger: Finger, pressure: float, title: str, axis: tuple[float, float]
     return drawn
 
 
-def draw_finger(top: float, bottom: float, wall: float) -> Figure:
-    """Draw a section 30 mm wide, its torque and its bending over pressure, n as in the script.
+def finger(top: Number, bottom: Number, wall: Number) -> dict[str, Any]:
+    """Return a section 30 mm wide, its torque and bending over pressure, n as in the script.
 
     Args:
         top, bottom, wall: a, b and t, mm.
     """
     section = Section(top * MM, bottom * MM, 30 * MM, wall * MM)
-    title = f"a {top:g}, b {bottom:g}, t {wall:g} mm"
-    return _draw(Finger(section, fractional_power=SCRIPT_POWER), 0.15 * MPa, title, (0.15, 300))
+    made = Finger(section, fractional_power=SCRIPT_POWER)
+    over = np.linspace(0, 0.15, 31)
+    pushed, bent = torque(section, over * MPa), bending_angle(made, over * MPa) / DEG
+    half, inner = section.width / 2 / MM, 15 - wall
+    return {
+        "rubber_x": [-half, half, half, -half],
+        "rubber_y": [-bottom, -bottom, top, top],
+        "chamber_x": [-inner, inner, inner, -inner],
+        "chamber_y": [0.0, 0.0, top - wall, top - wall],
+        "pressure": over,
+        "torque": pushed,
+        "angle": bent,
+        "frequency": natural_frequency(made, SCRIPT_MASS),
+        "most": pushed[-1],
+        "widest": bent[-1],
+    }
+
+
+FINGER_PLOT = Plot(
+    [
+        Panel(
+            [
+                Outline("rubber_x", "rubber_y", "rubber", colour=GREY, fill=0.3),
+                Outline("chamber_x", "chamber_y", "air", colour=SKY, fill=0.6),
+                Level(0.0, label="neutral surface"),
+            ],
+            x=(-18, 18), y=(-8, 26), x_label="mm", equal=True, share=0.42, left=30,
+        ),
+        Panel(
+            [Line("pressure", "torque", "torque", colour=BLUE)],
+            x=(0, 0.15), y=(0, 0.75), x_label="pressure (MPa)", y_label="torque (N m)",
+            height=230, share=0.29, left=40,
+        ),
+        Panel(
+            [Line("pressure", "angle", "bending", colour=ORANGE)],
+            x=(0, 0.15), y=(0, 300), x_label="pressure (MPa)", y_label="angle (deg)",
+            height=230, share=0.29, left=40,
+        ),
+    ],
+    title="{most:.3f} N m and {widest:.0f} deg at 0.15 MPa, {frequency:.2f} rad/s",
+)  # fmt: skip
 
 
 def draw_best(low: float, pressure: float, modulus: float, width: float = 0.4) -> Figure:

@@ -1,16 +1,19 @@
-"""What the sliders of Chapter 4 draw."""
+"""What the sliders of Chapter 4 move."""
 
 from dataclasses import replace
+from itertools import product
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import MultipleLocator
 
 from book.chapter_4.controllers import own_loop
 from book.chapter_4.pid_gains import pid_gains
 from book.chapter_4.pushed import pushed
 from book.companion.choices import choice
-from book.companion.style import GREY, LINEAR, LUDWICK, MEASURED, PRINTED, VERMILION, still, style
+from book.companion.style import LINEAR, LUDWICK, MEASURED, PRINTED, VERMILION, still, style
+from book.explore.plot import Bars, Level, Line, Panel, Plot
+from softgrip.arrays import Number
 from softgrip.control.pid import Gains
 from softgrip.control.step_metrics import settling_time
 from softgrip.logs.pushes import reference_noise
@@ -18,8 +21,9 @@ from softgrip.logs.reader import kept_log
 from softgrip.pump.finger import Finger
 from softgrip.pump.flow import TABLE_4_1, Pump, flow
 from softgrip.pump.gas import ATMOSPHERE, capacity, closed_volume_pressure
+from softgrip.pump.parts import MOTORS, SCREWS, SYRINGES
 from softgrip.pump.pressure import pressure
-from softgrip.pump.sizing import sizings
+from softgrip.pump.sizing import loads
 from softgrip.units import DEG, ML, MM, REV, MPa
 
 VOLUMES = {"60 mL": 60 * ML, "200 mL": 200 * ML}
@@ -28,8 +32,8 @@ BESIDE = 30 * ML
 AREAS = dict(zip(("60 mL", "200 mL"), TABLE_4_1["area"], strict=True))
 
 
-def draw_pump(syringe: str, lead: float, speed: float) -> Figure:
-    """Draw the pressure of a full syringe by Eq. (4.5) and by the exact gas law.
+def pump(syringe: str, lead: Number, speed: Number) -> dict[str, Any]:
+    """Return the pressure of a full syringe by Eq. (4.5) and by the exact gas law.
 
     Args:
         syringe: "60 mL" or "200 mL".
@@ -39,19 +43,25 @@ def draw_pump(syringe: str, lead: float, speed: float) -> Figure:
     air = flow(speed * REV, Pump(AREAS[syringe], lead * MM))
     full = VOLUMES[syringe]
     gas = full + BESIDE
-    time = np.linspace(0, min(20.0, 0.92 * full / air), 80)
+    time = np.linspace(0, 1, 80) * np.minimum(20.0, 0.92 * full / air)
     linear = pressure(time, air, capacity(ATMOSPHERE, gas))
     exact = closed_volume_pressure(air * time, gas) - ATMOSPHERE
-    with style():
-        drawn, axes = still(3.0)
-        axes.plot(time, exact / MPa, color=MEASURED, label=f"gas law, {gas / ML:.0f} mL closed")
-        axes.plot(time, linear / MPa, color=LINEAR, ls="--", label="Eq. (4.5), C constant")
-        axes.axhline(0.15, color=GREY, lw=1, ls=":")
-        axes.set(xlabel="time (s)", ylabel="pressure (MPa)", xlim=(0, 20), ylim=(0, 0.2))
-        axes.set_title(f"{air / ML:.1f} mL/s")
-        axes.xaxis.set_major_locator(MultipleLocator(5))
-        axes.legend(loc="lower right")
-    return drawn
+    return {"time": time, "gas": exact / MPa, "constant": linear / MPa, "flow": air / ML}
+
+
+PUMP_PLOT = Plot(
+    [
+        Panel(
+            [
+                Level(0.15, label="0.15 MPa"),
+                Line("time", "gas", "gas law, syringe and 30 mL closed", colour=MEASURED),
+                Line("time", "constant", "Eq. (4.5), C constant", colour=LINEAR, dash="6 3"),
+            ],
+            x=(0, 20), y=(0, 0.2), x_label="time (s)", y_label="pressure (MPa)",
+        )
+    ],
+    title="{syringe}: {flow:.1f} mL/s",
+)  # fmt: skip
 
 
 def draw_filter(noise: float) -> Figure:
@@ -78,31 +88,49 @@ def draw_filter(noise: float) -> Figure:
     return drawn
 
 
-def draw_sizing(pressure: float, volume: float, rise: float) -> Figure:
-    """Draw the torque that each combination of parts has over what it needs.
+PARTS = [*product(SYRINGES, SCREWS, MOTORS)]
+NAMES = [
+    f"{syringe.name}, {screw.name}, {motor.name.removeprefix('NEMA 17, ')}"
+    for syringe, screw, motor in PARTS
+]
+MARGIN = 1.5
+
+
+def sizing(pressure: Number, volume: Number, rise: Number) -> dict[str, Any]:
+    """Return the torque that each combination of parts has over what it needs.
 
     Args:
         pressure: Wanted gauge pressure, MPa.
         volume: Of the finger at rest, mL; at pressure it holds a quarter more.
         rise: Rise time, s.
     """
-    finger = Finger(pressure * MPa, volume * ML, 1.25 * volume * ML, 2 * ML, rise)
-    judged = sizings(finger)[::-1]
-    names = [
-        f"{s.syringe.name}, {s.screw.name}, {s.motor.name.removeprefix('NEMA 17, ')}"
-        for s in judged
-    ]
-    with style():
-        drawn, axes = still(3.6, left=0.36)
-        colours = [LUDWICK if s.feasible else VERMILION for s in judged]
-        axes.barh(names, [min(s.margin, 8) for s in judged], color=colours)
-        axes.axvline(1.5, color=GREY, ls="--", lw=1)
-        count = sum(s.feasible for s in judged)
-        axes.set(
-            xlabel="torque over need", xlim=(0, 8), title=f"{count} of {len(judged)} can do it"
+    wanted = Finger(pressure * MPa, volume * ML, 1.25 * volume * ML, 2 * ML, rise)
+    margins, fit = [], []
+    for syringe, screw, motor in PARTS:
+        swept, speed, _, needed, available = loads(wanted, syringe, screw, motor, syringe.volume)
+        margins.append(available / needed)
+        fit.append(
+            1.0
+            * (swept <= syringe.volume)
+            * (speed <= motor.speed_limit)
+            * (available >= MARGIN * needed)
         )
-        axes.tick_params(axis="y", labelsize=8.5)
-    return drawn
+    return {"margin": margins, "fits": fit, "count": sum(fit), "all": float(len(PARTS))}
+
+
+SIZING_PLOT = Plot(
+    [
+        Panel(
+            [
+                Bars("margin", NAMES, "fits", colour=LUDWICK, other=VERMILION,
+                     label="can do it; else vermilion"),
+                Level(MARGIN, "x", "1.5 times what it needs"),
+            ],
+            x=(0, 8), y=NAMES, x_label="torque over need", left=168, height=330,
+        )
+    ],
+    title="{count:.0f} of {all:.0f} can do it",
+)  # fmt: skip
 
 
 def draw_pid(kp: float, ki: float, kd: float) -> Figure:

@@ -38,7 +38,7 @@ BEST = Fitting()
 
 
 @remembered
-def _measured(name: str) -> tuple[Floats, Floats] | None:
+def measured_curve(name: str) -> tuple[Floats, Floats] | None:
     """Return strain and true stress up to the largest force, or None where no test is at hand."""
     if not tensile.available():
         return None
@@ -50,7 +50,7 @@ def draw_curves(axes: Any, material: Material, power: float) -> None:
     """Draw true stress over engineering strain: measured, Yeoh, Ludwick with a given n."""
     known = facts()[material.name]
     strain = np.linspace(0, known.peak_strain, 60)
-    if measured := _measured(material.name):
+    if measured := measured_curve(material.name):
         axes.plot(measured[0], measured[1] / MPa, color=MEASURED, label="measured", lw=3.2)
     hyperelastic = (1 + strain) * yeoh.stress(1 + strain, known.yeoh)
     axes.plot(strain, hyperelastic / MPa, color=OTHER, lw=1.2, label="Yeoh, fitted")

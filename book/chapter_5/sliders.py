@@ -1,51 +1,104 @@
-"""What the sliders of Chapter 5 draw."""
+"""What the sliders of Chapter 5 move."""
 
-from matplotlib.figure import Figure
+from typing import Any
 
-from book.chapter_5.figures_materials import draw_curves
-from book.companion.style import LUDWICK, MEASURED, still, style
+import numpy as np
+
+from book.chapter_5.figures_materials import measured_curve
+from book.companion.style import LUDWICK, MEASURED, OTHER
+from book.explore.plot import Dots, Level, Line, Panel, Plot, Span
+from softgrip.arrays import Number
+from softgrip.materials import ludwick, yeoh
 from softgrip.materials.facts import facts
-from softgrip.materials.powerlaw import predict_power
-from softgrip.materials.table import table_5_1
+from softgrip.materials.least_squares import LinearFit, linear_fit
+from softgrip.materials.powerlaw import EXPONENTS, SCALES, predictors
+from softgrip.materials.table import Material, fractional_powers, properties, table_5_1
+from softgrip.reads import remembered
 from softgrip.units import MPa
 
 
-def draw_new_material(E: float, MV: float, TS: float) -> Figure:
-    """Draw the predicted n of a new material among the ten known ones.
+@remembered
+def _fit() -> LinearFit:
+    known = table_5_1().values()
+    return linear_fit(predictors(*properties(known).T), fractional_powers(known))
+
+
+def new_material(E: Number, MV: Number, TS: Number) -> dict[str, Number]:
+    """Return the predicted n of a new material, and the 95 % interval for measuring it.
 
     Args:
         E, TS: Young's modulus (100 % modulus) and tensile strength, MPa.
         MV: Mixed viscosity, Pa s.
     """
-    found = predict_power(E * MPa, MV, TS * MPa)
-    power = found.power
-    with style():
-        drawn, axes = still(3.0, left=0.34)
-        axes.axvspan(power.low, power.high, color=LUDWICK, alpha=0.15, lw=0)
-        axes.axvline(power.value, color=LUDWICK, lw=2.4)
-        ranked = sorted(table_5_1().values(), key=lambda m: m.fractional_power)
-        axes.scatter([m.fractional_power for m in ranked], range(10), color=MEASURED, zorder=3)
-        axes.set_yticks(range(10), [m.name for m in ranked], fontsize=8.5)
-        title = f"n = {power.value:.2f}, 95 %: {power.low:.2f} to {power.high:.2f}"
-        if found.extrapolates:
-            title += "  (extrapolated)"
-        axes.set(xlim=(0, 4), xlabel="fractional power n", title=title)
-    return drawn
+    given = zip((E * MPa, MV, TS * MPa), SCALES, EXPONENTS, strict=True)
+    value, half = _fit().response([(v / scale) ** power for v, scale, power in given], 0.95)
+    known = properties(table_5_1().values())
+    inside: Number = 1.0
+    for v, low, high in zip((E * MPa, MV, TS * MPa), known.min(0), known.max(0), strict=True):
+        inside = inside * (v >= low) * (v <= high)
+    return {"n": value, "low": value - half, "high": value + half, "outside": 1 - inside}
 
 
-def draw_law(material: str, n: float) -> Figure:
-    """Draw Ludwick's law with a chosen n over the curve of a material."""
-    chosen = table_5_1()[material]
+def new_material_plot() -> Plot:
+    """Return the plot of `new_material`: the predicted n among the ten known ones."""
+    ranked = sorted(table_5_1().values(), key=lambda m: m.fractional_power)
+    names = [material.name for material in ranked]
+    return Plot(
+        [
+            Panel(
+                [
+                    Span("low", "high", "95 %", colour=LUDWICK),
+                    Level("n", "x", "predicted", colour=LUDWICK, dash="", width=2.4),
+                    Dots([m.fractional_power for m in ranked], names, "known", colour=MEASURED),
+                ],
+                x=(0, 4), y=names[::-1], x_label="fractional power n", left=168, height=290,
+            )
+        ],
+        title="n = {n:.2f}, 95 %: {low:.2f} to {high:.2f}",
+        cases=[("outside", "n = {n:.2f}, 95 %: {low:.2f} to {high:.2f} (extrapolated)")],
+    )  # fmt: skip
+
+
+def _of(material: str) -> Material:
+    return table_5_1()[material]
+
+
+def ludwick_law(material: str, n: Number) -> dict[str, Any]:
+    """Return true stress over strain: measured, by Yeoh's law, and by Ludwick's with a chosen n.
+
+    Args:
+        material: Of Table 5.1.
+        n: Its power.
+    """
     known = facts()[material]
-    with style():
-        drawn, axes = still(3.2)
-        draw_curves(axes, chosen, n)
-        axes.get_lines()[-1].set_label(f"Ludwick, n = {n:.2f}")
-        axes.set(
-            xlabel="engineering strain",
-            ylabel="true stress (MPa)",
-            title=f"{material}, printed n = {chosen.fractional_power:.3f}",
-            ylim=(0, 1.15 * (1 + known.peak_strain) * known.peak_stress / MPa),
-        )
-        axes.legend(loc="upper left")
-    return drawn
+    strain = np.linspace(0, known.peak_strain, 60)
+    measured = measured_curve(material)
+    seen = ([], []) if measured is None else (measured[0], measured[1] / MPa)
+    return {
+        "strain": strain,
+        "measured_strain": seen[0],
+        "measured": seen[1],
+        "Yeoh": (1 + strain) * yeoh.stress(1 + strain, known.yeoh) / MPa,
+        "Ludwick": ludwick.stress(strain, _of(material).young_modulus, n) / MPa,
+        "printed": _of(material).fractional_power,
+        "end": known.peak_strain,
+        "top": 1.15 * (1 + known.peak_strain) * known.peak_stress / MPa,
+    }
+
+
+def ludwick_plot() -> Plot:
+    """Return the plot of `ludwick_law`."""
+    return Plot(
+        [
+            Panel(
+                [
+                    Line("measured_strain", "measured", "measured", colour=MEASURED, width=3.2),
+                    Line("strain", "Yeoh", "Yeoh, fitted", colour=OTHER, width=1.4),
+                    Line("strain", "Ludwick", "Ludwick", colour=LUDWICK, dash="6 3"),
+                ],
+                x=(0, "end"), y=(0, "top"),
+                x_label="engineering strain", y_label="true stress (MPa)",
+            )
+        ],
+        title="{material}, n = {n:.2f}, printed {printed:.3f}",
+    )  # fmt: skip

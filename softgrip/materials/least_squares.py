@@ -1,12 +1,13 @@
 """Ordinary least squares as in Eq. (5.3) and (5.4), and how far its prediction can be trusted."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.stats import t as student_t
 
-from softgrip.arrays import Floats, floats
+from softgrip.arrays import Floats, Number, floats
 from softgrip.checks import check_finite, takes_numbers
 from softgrip.errors import InvalidInputError
 
@@ -58,6 +59,53 @@ def normal_equations(A: ArrayLike, y: ArrayLike) -> Floats:
     return np.asarray(np.linalg.solve(A.T @ A, A.T @ y), dtype=np.float64)
 
 
+@dataclass(frozen=True)
+class LinearFit:
+    """Least squares, and what tells how far a further response may lie off.
+
+    Attributes:
+        coefficients: x of Eq. (5.3), shape (p,).
+        inverse: Of the normal matrix, shape (p, p).
+        variance: Of the errors.
+        freedom: Degrees of freedom, m - p.
+    """
+
+    coefficients: Floats
+    inverse: NDArray[np.floating]
+    variance: float
+    freedom: int
+
+    def response(
+        self, predictors: Sequence[Number] | Floats, confidence: float
+    ) -> tuple[Number, Number]:
+        """Return the response to a row of predictors, and half the interval for measuring it.
+
+        Args:
+            predictors: p floats or symbols.
+            confidence: Between 0 and 1, both excluded.
+        """
+        value = sum(c * a for c, a in zip(self.coefficients, predictors, strict=True))
+        leverage = sum(
+            predictors[i] * element * predictors[j]
+            for (i, j), element in np.ndenumerate(self.inverse)
+        )
+        t = student_t.ppf((1 + confidence) / 2, self.freedom)
+        return value, t * np.sqrt(self.variance * (1 + leverage))
+
+
+def linear_fit(A: Floats, y: Floats) -> LinearFit:
+    """Fit responses y, shape (m,), to predictors A, shape (m, p), m > p.
+
+    Raises:
+        InvalidInputError: As of `normal_equations`, and if m <= p: no error can be estimated.
+    """
+    x, (m, p) = normal_equations(A, y), A.shape
+    if m <= p:
+        raise InvalidInputError("A", expected="shape (m, p), m > p", got=A.shape)
+    variance = float(np.sum((y - A @ x) ** 2) / (m - p))
+    return LinearFit(x, np.linalg.inv(A.T @ A), variance, m - p)
+
+
 @takes_numbers
 def prediction_interval(
     A: ArrayLike, y: ArrayLike, a: ArrayLike, *, confidence: float = 0.95
@@ -82,16 +130,10 @@ def prediction_interval(
     """
     A, y, a = floats(A=A, y=y, a=a)
     check_finite(a=a)
-    x = normal_equations(A, y)
-    m, p = A.shape
-    if m <= p or a.shape != (p,):
-        raise InvalidInputError(
-            "A, a", expected="shapes (m, p) and (p,) with m > p", got=(A.shape, a.shape)
-        )
+    fit = linear_fit(A, y)
+    if a.shape != fit.coefficients.shape:
+        raise InvalidInputError("a", expected=f"shape {fit.coefficients.shape}", got=a.shape)
     if not 0 < confidence < 1:
         raise InvalidInputError("confidence", expected="a number in (0, 1)", got=confidence)
-    variance = np.sum((y - A @ x) ** 2) / (m - p)
-    leverage = a @ np.linalg.solve(A.T @ A, a)
-    half = student_t.ppf((1 + confidence) / 2, m - p) * np.sqrt(variance * (1 + leverage))
-    value = float(a @ x)
-    return Prediction(value, value - float(half), value + float(half), confidence)
+    value, half = map(float, fit.response(a, confidence))
+    return Prediction(value, value - half, value + half, confidence)

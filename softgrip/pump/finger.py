@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softgrip.arrays import Number, check_positive
+from softgrip.arrays import Number, check_positive, is_symbol
 from softgrip.checks import check_not_negative
 from softgrip.errors import InvalidInputError
 from softgrip.pump.gas import ATMOSPHERE
@@ -39,6 +39,8 @@ class Finger:
             rise_time=self.rise_time,
         )
         check_not_negative(dead_volume=self.dead_volume)
+        if is_symbol(self.volume_at_pressure):
+            return
         if not np.all(self.volume_at_pressure >= self.volume_at_rest):
             raise InvalidInputError(
                 "volume_at_pressure",

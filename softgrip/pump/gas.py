@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 
-from softgrip.arrays import Value, check_positive
+from softgrip.arrays import Value, check_positive, is_symbol
 from softgrip.checks import check_not_negative
 from softgrip.errors import InvalidInputError
 
@@ -151,7 +151,7 @@ def closed_volume_pressure(
     check_positive(gas_volume=gas_volume, start_pressure=start_pressure)
     check_not_negative(compliance=compliance)
     # Not <=, so that NaN is caught as well.
-    if not np.all(np.asarray(swept_volume) < gas_volume):
+    if not is_symbol(swept_volume) and not np.all(np.asarray(swept_volume) < gas_volume):
         raise InvalidInputError(
             "swept_volume",
             expected=f"numbers below the gas volume {gas_volume:g}",

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Literal, get_args
 
+from softgrip.arrays import Number
 from softgrip.errors import InvalidInputError
 from softgrip.pump.finger import Finger, swept_volume
 from softgrip.pump.flow import Pump
@@ -57,6 +58,33 @@ class Sizing:
         return not self.reasons
 
 
+def loads(
+    finger: Finger,
+    syringe: Syringe,
+    screw: Screw,
+    motor: Motor,
+    start_volume: float,
+    atmosphere: float = ATMOSPHERE,
+) -> tuple[Number, Number, Number, Number, Number]:
+    """Return what a push asks for at its end: the law of `size`, for symbols too.
+
+    Args:
+        finger: Of floats or symbols.
+        syringe, screw, motor: The parts.
+        start_volume: Of air in the syringe, m^3.
+        atmosphere: Pa.
+
+    Returns:
+        The swept volume, m^3, the motor's speed, rad/s, the thrust, N, and the torques needed and
+        available, N m.
+    """
+    swept = swept_volume(finger, start_volume, atmosphere)
+    speed = swept / Pump(syringe.area, screw.lead).displacement / finger.rise_time
+    # The atmosphere pushes on the plunger from outside: the motor feels the gauge pressure.
+    thrust = finger.gauge_pressure * syringe.area + syringe.friction
+    return swept, speed, thrust, screw.torque(thrust), motor.torque(speed)
+
+
 def size(
     finger: Finger,
     syringe: Syringe,
@@ -86,12 +114,10 @@ def size(
     if not least_margin >= 1:
         raise InvalidInputError("least_margin", expected="a number >= 1", got=least_margin)
     start_volume = fill * syringe.volume
-    swept = swept_volume(finger, start_volume, atmosphere)
-    turns = swept / Pump(syringe.area, screw.lead).displacement
-    speed = turns / finger.rise_time
-    # The atmosphere pushes on the plunger from outside: the motor feels the gauge pressure.
-    thrust = finger.gauge_pressure * syringe.area + syringe.friction
-    needed, available = screw.torque(thrust), motor.torque(speed)
+    swept, speed, thrust, needed, available = loads(
+        finger, syringe, screw, motor, start_volume, atmosphere
+    )
+    turns = speed * finger.rise_time
     fastest = motor.speed(least_margin * needed)
     reasons = []
     if swept > start_volume:

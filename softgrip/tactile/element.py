@@ -6,12 +6,12 @@ leaves out, the clamped base and a small top that sinks into a wide body, is lef
 """
 
 from dataclasses import dataclass
-from math import asinh, inf, isfinite, pi, sqrt
+from math import inf, isfinite, pi, sqrt
 from typing import Literal, get_args
 
 import numpy as np
 
-from softgrip.arrays import Value, check_positive
+from softgrip.arrays import Value, check_positive, is_symbol
 from softgrip.errors import InvalidInputError
 from softgrip.units import MM, MPa
 
@@ -43,6 +43,8 @@ class Element:
         if self.shape not in SHAPES:
             raise InvalidInputError("shape", expected=f"one of {SHAPES}", got=self.shape)
         check_positive(width=self.width, height=self.height)
+        if is_symbol(self.cut):
+            return
         if not 0 <= self.cut <= 1 or (self.shape == "cylinder" and self.cut != 1):
             raise InvalidInputError("cut", expected="0 to 1; 1 for a cylinder", got=self.cut)
 
@@ -98,7 +100,7 @@ def cross_section(element: Element, y: Value) -> Value:
         InvalidInputError: If y is outside the element.
     """
     part = y / element.height
-    if not np.all((part >= 0) & (part <= 1)):
+    if not is_symbol(part) and not np.all((part >= 0) & (part <= 1)):
         raise InvalidInputError("y", expected=f"0 to {element.height:g} m", got=y)
     if element.shape == "pyramid":
         return element.base_area * (1 - (1 - element.cut) * part) ** 2
@@ -128,12 +130,13 @@ def compliance(element: Element, young_modulus: float = STATED_MODULUS) -> float
     """
     check_positive(young_modulus=young_modulus)
     block, k = element.height / (young_modulus * element.base_area), element.cut
-    if k == 0:
-        return inf
-    if k == 1:
-        return block
-    side = sqrt((1 - k) * (1 + k))  # arcosh(1 / k) is arsinh(side / k), which keeps its digits
-    return block * (1 / k if element.shape == "pyramid" else asinh(side / k) / side)
+    if not is_symbol(k) and k in (0, 1):
+        return block if k else inf
+    if element.shape == "pyramid":
+        return block / k
+    side = ((1 - k) * (1 + k)) ** 0.5  # arcosh(1 / k) is arsinh(side / k), which keeps its digits
+    found: float = block * np.arcsinh(side / k) / side
+    return found
 
 
 def shortening(element: Element, force: Value, young_modulus: float = STATED_MODULUS) -> Value:
@@ -150,9 +153,9 @@ def shortening(element: Element, force: Value, young_modulus: float = STATED_MOD
         InvalidInputError: If the force is not, or the top is sharp, where any force shortens
             without limit.
     """
-    if not np.all(np.asarray(force) >= 0):
+    if not is_symbol(force) and not np.all(np.asarray(force) >= 0):
         raise InvalidInputError("force", expected="N, >= 0", got=force)
     soft = compliance(element, young_modulus)
-    if not isfinite(soft):
+    if not is_symbol(soft) and not isfinite(soft):
         raise InvalidInputError("element", expected="a flat top (cut > 0)", got=element)
     return soft * force

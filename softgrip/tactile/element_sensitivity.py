@@ -9,7 +9,7 @@ same length by width, but only the part 1 - e of its thickness. The resistance i
 import numpy as np
 from scipy.optimize import brentq
 
-from softgrip.arrays import Floats, Value, check_positive
+from softgrip.arrays import Floats, Value, check_positive, is_symbol
 from softgrip.errors import InvalidInputError
 from softgrip.tactile.element import STATED_MODULUS, Element, Shape, compliance, shortening
 from softgrip.units import MM
@@ -43,7 +43,7 @@ def resistance(
     check_positive(height=height, at_rest=at_rest)
     if not ceiling > at_rest:
         raise InvalidInputError("ceiling", expected=f"Ohm, > {at_rest:g}", got=ceiling)
-    if not np.all(np.asarray(shortening) >= 0):
+    if not is_symbol(shortening) and not np.all(np.asarray(shortening) >= 0):
         raise InvalidInputError("shortening", expected="m, >= 0", got=shortening)
     # Bounded before the division: a linear law may shorten by more than the height.
     thinned: float | Floats = np.maximum(1 - shortening / height, at_rest / ceiling)

@@ -3,8 +3,8 @@
 import pytest
 
 from book.chapter_5.sliders import draw_law, draw_new_material
-from book.companion.frames import render
 from book.companion.save import numbers
+from book.explore.frames import render
 from softgrip.errors import InvalidInputError
 from softgrip.materials.powerlaw import predict_power
 

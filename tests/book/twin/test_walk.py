@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from book.companion.frames import render
+from book.explore.frames import render
 from book.twin.fitted import ensemble
 from book.twin.misfit import chosen, misfit
 from book.twin.pictures import draw_walk, powers

@@ -4,10 +4,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Real
+from typing import Any
 
 import numpy as np
 
-from book.companion.frames import MAX_FRAMES
+from book.explore.frames import MAX_FRAMES
 from softgrip.errors import InvalidInputError
 
 Value = float | str
@@ -75,6 +76,18 @@ class Slider:
         text = value if isinstance(value, str) else f"{value:.6g}"
         return f"{text} {self.unit}".strip()
 
+    @property
+    def words(self) -> bool:
+        """Whether it chooses among words."""
+        return isinstance(self.values[0], str)
+
+    def data(self, name: str) -> dict[str, Any]:
+        """Return it as the page's script takes it."""
+        return {
+            "name": name, "label": self.label, "unit": self.unit, "start": self.start,
+            "values": self.values, "steps": len(self.values) - 1,
+        }  # fmt: skip
+
     def finer(self, times: int = 10) -> "Slider":
         """Return a slider with ``times`` as many steps, if this one is continuous.
 
@@ -116,3 +129,68 @@ def slider(
     if not 2 <= steps <= MAX_FRAMES:
         raise InvalidInputError(name, expected=f"2 to {MAX_FRAMES} steps", got=steps)
     return Slider(_tidy(np.linspace(low, high, steps)), label, unit, default, continuous=True)
+
+
+@dataclass(frozen=True)
+class Range:
+    """A slider over all numbers between two, for a law that the page computes.
+
+    Attributes:
+        low, high: The extremes; low < high.
+        start: The value shown first.
+        label: What is varied, as the reader is told.
+        unit: Written behind the number.
+        step: What a key moves it by; a two-hundredth of the range without it.
+        log: Whether equal ways are equal factors; low is then above 0.
+
+    Raises:
+        InvalidInputError: If one of these does not hold.
+
+    >>> Range(14, 23, 20, "a", unit="mm", step=0.1).data("top")["steps"]
+    90
+    """
+
+    low: float
+    high: float
+    start: float
+    label: str
+    unit: str = ""
+    step: float | None = None
+    log: bool = False
+
+    def __post_init__(self) -> None:
+        name = f"slider {self.label!r}"
+        if not (math.isfinite(self.low) and math.isfinite(self.high) and self.low < self.high):
+            raise InvalidInputError(name, expected="finite low < high", got=(self.low, self.high))
+        if not self.low <= self.start <= self.high:
+            raise InvalidInputError(
+                name, expected=f"a start from {self.low:g} to {self.high:g}", got=self.start
+            )
+        if self.log and (self.low <= 0 or self.step is not None):
+            raise InvalidInputError(name, expected="low > 0 and no step, if log", got=self)
+        if abs(self.steps * (self.step or 0) - (self.step or 0) * self._parts) > 1e-9:
+            raise InvalidInputError(name, expected="a step that parts the range", got=self.step)
+
+    @property
+    def _parts(self) -> float:
+        return (self.high - self.low) / self.step if self.step else 200
+
+    @property
+    def steps(self) -> int:
+        """How many steps of a key lead from one end to the other."""
+        return round(self._parts)
+
+    @property
+    def place(self) -> int:
+        """The step at which it starts."""
+        low, start, high = (
+            math.log(value) if self.log else value for value in (self.low, self.start, self.high)
+        )
+        return round(self.steps * (start - low) / (high - low))
+
+    def data(self, name: str) -> dict[str, Any]:
+        """Return it as the page's script takes it."""
+        return {
+            "name": name, "label": self.label, "unit": self.unit, "start": self.place,
+            "low": self.low, "high": self.high, "steps": self.steps, "log": self.log,
+        }  # fmt: skip

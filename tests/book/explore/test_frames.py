@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from book.companion import Slider, explore, slider
-from book.companion.frames import MAX_FRAMES, PAGE, Budget, Frame, render
+from book.explore.frames import MAX_FRAMES, PAGE, Budget, Frame, render
 from softgrip.errors import InvalidInputError
 
 NAMES = ("a", "b", "c")
