@@ -1,5 +1,6 @@
 """The pump of a log: which it is, and what it has swept, over the true times of its rows."""
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,8 @@ START = 1500.0
 SURE = 2.0
 """Standard errors by which a start must be above it."""
 LEAST_ROWS = 8
+LEAST_PLACES = 4
+"""Volumes that differ: a parabola has three numbers, whose errors want one more."""
 MOST_HIDDEN = 0.55
 """Share of the volume that is swept at low pressure of which one gap may hide the pressure. Up to
 it a straight line moves the capacity by 4 % at most, up to 0.6 by 6 %: gaps anywhere in pushes."""
@@ -119,11 +122,21 @@ def check_start(path: Path | str, swept: Floats, pressure: Floats) -> None:
         DataFileError: If there are fewer than `LEAST_ROWS` rows, or a parabola through the pressure
             begins above `START`, by more than noise makes it.
     """
-    if swept.size < LEAST_ROWS or not np.ptp(swept) > 0:
+    volumes = np.unique(swept).size
+    if swept.size < LEAST_ROWS or volumes < LEAST_PLACES:
         raise DataFileError(
-            path, expected=f"{LEAST_ROWS} rows of a push at low pressure", got=str(swept.size)
+            path,
+            expected=f"{LEAST_ROWS} rows of a push at low pressure, {LEAST_PLACES} volumes or more",
+            got=f"{swept.size}, {volumes}",
         )
-    found, covariance = np.polyfit(swept / np.ptp(swept), pressure, 2, cov=True)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", np.exceptions.RankWarning)
+        try:
+            found, covariance = np.polyfit(swept / np.ptp(swept), pressure, 2, cov=True)
+        except np.exceptions.RankWarning:
+            raise DataFileError(
+                path, expected="volumes of a push that are spread", got="all but a few are one"
+            ) from None
     begun = float(found[-1] - SURE * covariance[-1, -1] ** 0.5)
     if begun > START:
         raise DataFileError(
