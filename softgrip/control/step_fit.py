@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import least_squares
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from softgrip.arrays import Floats
 from softgrip.checks import record, takes_numbers
@@ -158,7 +158,7 @@ def fit_step(time: Floats, output: Floats, name: str) -> StepFit:
         name,
         numbers(fit.x),
         errors,
-        float(student.ppf((1 + CONFIDENCE) / 2, left)),
+        float(stdtrit(left, (1 + CONFIDENCE) / 2)),
         np.asarray(fit.fun * scale),
         len(best),
     )

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize
-from scipy.stats import norm
+from scipy.special import ndtri
 
 from softgrip.arrays import Floats
 from softgrip.checks import takes_numbers
@@ -65,7 +65,7 @@ class NoiseEstimate:
         level, std = getattr(self.levels, name), self.log_std[NAMES.index(name)]
         if not np.isfinite(std):
             return 0.0, float("inf")
-        factor = float(np.exp(norm.ppf((1 + confidence) / 2) * std))
+        factor = float(np.exp(ndtri((1 + confidence) / 2) * std))
         return level / factor, level * factor
 
 
