@@ -361,7 +361,7 @@ def _chosen(path: Path, found: Sequence[_Block], table: int | None) -> _Block:
 
 
 def _follows(one: _Block, other: _Block) -> bool:
-    """Tell whether a table goes on under its names, as where a file was appended to; a gap parts."""
+    """Tell whether a table goes on under its names: a file was appended to. Other lines part."""
     same = (one.names, one.units) == (other.names, other.units)
     return same and not one.rest[0] and other.line == one.rows[-1][0] + 1
 

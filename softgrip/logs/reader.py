@@ -54,7 +54,7 @@ def read_log(path: Path | str, *, columns: Mapping[str, str] | None = None) -> L
     keys = _keys(table)
     chosen = _chosen(table, told, strict=bool(keys))
     raw = {name: table.numbers(at, missing=True) for name, (at, _) in chosen.items()}
-    emptied = [] if keys else _without_the_empty(chosen, raw)
+    emptied = [] if keys else _without_the_empty(table, told, chosen, raw)
     rows, repairs = _whole_rows(table, chosen, raw, strict=bool(keys))
     repairs += emptied
     if not told.columns:
@@ -81,11 +81,24 @@ def read_log(path: Path | str, *, columns: Mapping[str, str] | None = None) -> L
     return replace(log, repairs=(*repairs, *found))
 
 
-def _without_the_empty(chosen: dict[str, tuple[int, str]], raw: dict[str, Floats]) -> list[str]:
-    """Leave out columns that are empty in many rows, and say so: the others have these rows."""
+def _without_the_empty(
+    table: TextTable,
+    told: LogMapping,
+    chosen: dict[str, tuple[int, str]],
+    raw: dict[str, Floats],
+) -> list[str]:
+    """Leave out columns that are empty in many rows, and say so: the others have these rows.
+
+    Raises:
+        DataFileError: If one of them was told to be read.
+    """
     empty = {name: float(np.mean(np.isnan(values))) for name, values in raw.items()}
     said = []
     for name in [name for name, share in empty.items() if share > MOST_EMPTY and name != "time"]:
+        if name in told.columns:
+            first = int(np.flatnonzero(np.isnan(raw[name]))[0])
+            got = repr(table.rows[first][chosen[name][0]])
+            raise table.refusal(f"a finite number under {name}", got, table.lines[first])
         del chosen[name], raw[name]
         said.append(f"{name} was left out: {empty[name]:.0%} of its cells are empty")
     return said
