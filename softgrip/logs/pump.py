@@ -6,10 +6,11 @@ from pathlib import Path
 import numpy as np
 
 from softgrip.arrays import Floats, intervals
-from softgrip.errors import DataFileError
+from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.logs.gaps import even_clock, gaps_of, period_of, places, refuse_late_start
 from softgrip.logs.schema import Log
 from softgrip.pump.flow import Pump
+from softgrip.quantities import in_si
 
 LONGEST = 2.0
 """Longest gap, s, over which a command that is the same before and after it is taken as held. A
@@ -27,22 +28,29 @@ it a straight line moves the capacity by 4 % at most, up to 0.6 by 6 %: gaps any
 
 
 def pump_of(path: Path, log: Log) -> Pump:
-    """Return the pump that a log names by ``area`` in m^2 and ``lead`` in m.
+    """Return the pump whose ``area`` and ``lead`` a log names, each with its unit.
 
     Raises:
-        DataFileError: If the header lacks one of them, or has another unit.
+        DataFileError: If the header lacks one of them, or one is no area or no length.
     """
     notes = log.header.notes
+    given = [notes.get(name, "") for name in ("area", "lead")]
     try:
-        area, lead = (notes[name].split() for name in ("area", "lead"))
-        if (area[1], lead[1]) != ("m^2", "m"):
-            raise ValueError(f"{area[1]}, {lead[1]}")
-        return Pump(float(area[0]), float(lead[0]))
-    except (KeyError, ValueError, IndexError) as error:
-        raise DataFileError(
-            path, expected="'area: <number> m^2' and 'lead: <number> m' in the header",
-            got=repr(error),
-        ) from None  # fmt: skip
+        if all(given):
+            return Pump(
+                *(
+                    in_si(name, words, unit)
+                    for name, words, unit in zip(("area", "lead"), given, ("m^2", "m"), strict=True)
+                )
+            )
+        got = "area and lead of the pump: " + ", ".join(words or "none" for words in given)
+    except InvalidInputError as error:
+        got = str(error)
+    raise DataFileError(
+        path,
+        expected="the pump in the header, such as area: 3.2 cm^2 and lead: 2 mm",
+        got=got,
+    )
 
 
 def swept_volume(path: Path | str, log: Log, flow: Floats) -> Floats:
