@@ -33,7 +33,7 @@ def takes_numbers(function: Callable[Given, Returned]) -> Callable[Given, Return
     softgrip.errors.InvalidInputError: weight: expected real numbers without a unit, in rows of \
 one length, got 'twice'
     """
-    kinds = get_type_hints(function)
+    kinds = _hints(function)
     readers = {name: found for name, kind in kinds.items() if (found := _reader(kind))}
     # By place: to bind a signature takes longer than many a law.
     places = [(name, readers.get(name)) for name in signature(function).parameters]
@@ -51,6 +51,16 @@ one length, got 'twice'
         return function(*read, *args[len(places) :], **named)  # type: ignore[arg-type]
 
     return checked
+
+
+def _hints(function: Callable[..., Any]) -> dict[str, Any]:
+    """Return the annotations of a function; Any for what is imported for its types alone."""
+    unknown: dict[str, Any] = {}
+    while True:
+        try:
+            return get_type_hints(function, localns=unknown)
+        except NameError as error:
+            unknown[error.name] = Any
 
 
 def _reader(kind: Any) -> Callable[[str, Any], Any] | None:
