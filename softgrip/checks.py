@@ -60,7 +60,7 @@ def _hints(function: Callable[..., Any]) -> dict[str, Any]:
         try:
             return get_type_hints(function, localns=unknown)
         except NameError as error:
-            unknown[error.name] = Any
+            unknown[str(error.name)] = Any
 
 
 def _reader(kind: Any) -> Callable[[str, Any], Any] | None:
