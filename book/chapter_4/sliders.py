@@ -98,13 +98,13 @@ def capacity_filter(noise: Number) -> dict[str, Any]:
     """
     time, rows, model, constant = _push()
     known, begin = model.noise, model.prior
+    kalman = elastance_filter(model)
+    kalman.inv = lambda variance: 1 / variance  # of one number, which may be a symbol
 
     def sample(state: Numbers, row: Numbers, given: Numbers) -> tuple[Numbers, Numbers]:
         pressure, elastance, *spread, predicted, worst = state
         (behind, after, measured, ahead), (elastance_step,) = row, given
-        kalman = elastance_filter(model)
         kalman.x, kalman.P = array([[pressure], [elastance]]), array([spread[:2], spread[2:]])
-        kalman.inv = lambda variance: 1 / variance  # of one number, which may be a symbol
         # Before the first row nothing moves, and there is no noise.
         noises = [after * known.pressure_step**2, 0.0], [0.0, after * elastance_step**2]
         kalman.predict(u=np.zeros((1, 1)), F=array([[1.0, behind], [0.0, 1.0]]), Q=array(noises))
