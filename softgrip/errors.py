@@ -29,6 +29,10 @@ class DependentRowsWarning(UserWarning):
     """Rows that are not independent: what is tested on some of them was trained on their like."""
 
 
+class LeftOutWarning(UserWarning):
+    """Something of a file that was not read, such as a comment between its rows."""
+
+
 class UnknownNameError(SoftgripError, KeyError):
     """A name that is not in a table; the message lists those that are."""
 

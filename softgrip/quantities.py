@@ -174,6 +174,7 @@ def is_unit(text: str) -> bool:
 @lru_cache(maxsize=1)
 def _all_usual() -> frozenset[str]:
     more = "sec secs second seconds minutes degree degrees rps m3/h n*m n*mm pa.s mpa.s pas mpas"
+    more += " inch inches ksi"
     usual = " ".join(units for _, units in DIMENSIONS.values())
     return frozenset(_plain(unit).casefold() for unit in f"{usual} {more}".split())
 
@@ -204,6 +205,22 @@ def convert(values: ArrayLike, unit: str, wanted: str, *, name: str = "unit") ->
         raise InvalidInputError(name, expected=expected_units(wanted), got=unit)
     registry = _registry()
     return np.asarray(registry.Quantity(found, meant).to(_plain(wanted)).magnitude)
+
+
+def same_unit(first: str, second: str) -> bool:
+    """Tell whether two spellings are one unit.
+
+    >>> same_unit("N/mm2", "MPa"), same_unit("s", "ms"), same_unit("my own", "My own")
+    (True, False, True)
+    """
+    if first.casefold() == second.casefold():
+        return True
+    try:
+        wanted = si_unit(first)
+        one, other = (float(convert(1.0, unit, wanted)) for unit in (first, second))
+    except InvalidInputError:
+        return False
+    return abs(one - other) <= 1e-9 * abs(one)
 
 
 def si_unit(unit: str, *, name: str = "unit") -> str:

@@ -66,7 +66,12 @@ def rows_of(text: str, separator: str) -> list[Row]:
     """
     found = _by_blanks(text) if separator == BLANKS else _by_sign(text, separator)
     rows = ((line, tuple(" ".join(cell.split()) for cell in cells)) for line, cells in found)
-    return [(line, row) for line, row in rows if any(row) and not row[0].startswith(COMMENT)]
+    return [(line, row) for line, row in rows if any(row) and not _is_comment(row[0])]
+
+
+def _is_comment(cell: str) -> bool:
+    # A spreadsheet's errors begin as comments do.
+    return cell.startswith(COMMENT) and not re.match(r"#(N/A|NUM|DIV|VALUE|REF|NAME|NULL)", cell)
 
 
 def _by_blanks(text: str) -> Iterator[tuple[int, list[str]]]:

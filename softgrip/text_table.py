@@ -8,7 +8,7 @@ is read is what there is one way to read; where there are two, the error says wh
 
 import csv
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +16,10 @@ import numpy as np
 from softgrip.arrays import Floats
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.files import path_of
+from softgrip.quantities import same_unit
 from softgrip.text_cells import (
     BLANKS,
+    COMMENT,
     SEPARATORS,
     Row,
     declared_separator,
@@ -158,6 +160,15 @@ def read_table(
     found = _by_separator(file, text, separator)
     one = _chosen(file, found, table)
     rows, notes, ended = list(one.rows), _left_out(one, found), True
+    between = [
+        number
+        for number, line in enumerate(lines_of(text), start=1)
+        if one.line < number < rows[-1][0] and line.lstrip(' "').startswith(COMMENT)
+    ]
+    between = [number for number in between if number not in {line for line, _ in rows}]
+    if between:
+        several = f" and {len(between) - 1} more" if len(between) > 1 else ""
+        notes.append(f"line {between[0]}{several}, a comment, was left out")
     if not text.endswith(("\n", "\r")) and rows[-1][0] == len(lines_of(text)):
         ended = len(rows[-1][1]) != len(one.names)
         if ended:
@@ -169,6 +180,12 @@ def read_table(
             )
     named = [heading(cell) for cell in one.names]
     below = [unit_of_cell(cell) for cell in one.units] or [""] * len(named)
+    for (name, unit), other in zip(named, below, strict=True):
+        if unit and other not in ("", "1") and not same_unit(unit, other):
+            raise DataFileError(
+                file, expected=f"one unit of {name!r}", got=f"{unit} and, below, {other}",
+                line=one.line,
+            )  # fmt: skip
     return TextTable(
         path=file,
         names=tuple(name for name, _ in named),
@@ -330,6 +347,8 @@ def _chosen(path: Path, found: Sequence[_Block], table: int | None) -> _Block:
         if not 1 <= table <= len(found):
             raise DataFileError(path, expected=f"a table {table}", got=f"{len(found)} tables")
         return found[table - 1]
+    if len(found) > 1 and all(map(_follows, found, found[1:])):
+        return _appended(found)
     longest = max(found, key=_length)
     alike = [
         f"table {k} under line {one.line}, {len(one.rows)} rows"
@@ -341,13 +360,29 @@ def _chosen(path: Path, found: Sequence[_Block], table: int | None) -> _Block:
     return longest
 
 
+def _follows(one: _Block, other: _Block) -> bool:
+    """Tell whether a table goes on under its names: a file was appended to. Other lines part."""
+    same = (one.names, one.units) == (other.names, other.units)
+    return same and not one.rest[0] and other.line == one.rows[-1][0] + 1
+
+
+def _appended(found: Sequence[_Block]) -> _Block:
+    """Return tables of the same names and units as one, as a file has that was appended to."""
+    first, *others = found
+    rows = [row for one in found for row in one.rows]
+    return replace(first, rows=tuple(rows), rest=others[-1].rest if others else first.rest)
+
+
 def _left_out(chosen: _Block, found: Sequence[_Block]) -> list[str]:
     """Say what follows the names of a table and is not in it."""
     notes = [
         f"lines {first} to {last}, after the table, were left out"
-        for first, last in [chosen.rest]
+        for first, last in [one.rest for one in found if one is chosen or chosen not in found]
         if first
     ]
+    if chosen not in found:
+        again = ", ".join(str(one.line) for one in found[1:])
+        return [*notes, f"the names stand again in line {again}: the rows below go on"]
     others = [one for one in found if one is not chosen]
     return notes + [
         f"the table of {len(one.rows)} rows under line {one.line} was left out" for one in others

@@ -13,7 +13,8 @@ from softgrip.control.state_feedback import ObserverFeedback
 from softgrip.control.ziegler_nichols import integrating_reaction_curve, reaction_curve
 from softgrip.dynamics.identify import identify
 from softgrip.dynamics.second_order import SecondOrder, response
-from softgrip.errors import DataFileError, InvalidInputError, NotFiniteError
+from softgrip.errors import DataFileError, InvalidInputError, LeftOutWarning, NotFiniteError
+from softgrip.logs.pump import pump_of
 from softgrip.logs.reader import read_log
 from softgrip.logs.steps import judge_step_log
 from softgrip.materials import ludwick
@@ -298,3 +299,117 @@ def test_divider_with_the_sensor_at_ground_and_readings_at_the_rail(top):
 def test_sensor_that_bends_both_ways_is_refused():
     with pytest.raises(InvalidInputError, match="fit a part of the range"):
         fit_sensor(100 + 9 * ANGLES, (ANGLES - 45.0) ** 2)
+
+
+def plain(step, *, names=STEP, more=""):
+    return table(names, T, step, TARGET) + more
+
+
+def settled(path):
+    found = judge_step_log(path)
+    return float(found.settled_5_percent), float(found.steady_state_error)
+
+
+TRUE = 2.3719
+"""5 % of a critically damped step at 2 rad/s: (1 + 2 t) exp(-2 t) = 0.05."""
+
+
+@pytest.mark.parametrize("low", [0.5, -0.8])
+def test_a_step_of_a_bent_finger_is_judged_from_where_it_was(write, low):
+    bent = low + (1 - low) * ANGLE
+    at, error = settled(write(plain(bent)))
+    assert at == pytest.approx(TRUE, abs=0.05)
+    assert error == pytest.approx(0, abs=2e-3)
+
+
+def test_a_short_record_is_judged_by_its_last_quarter(write):
+    some = T < 3.5
+    text = table(STEP, T[some], ANGLE[some], TARGET[some])
+    assert settled(write(text))[0] == pytest.approx(TRUE, abs=0.05)
+
+
+@pytest.mark.parametrize("below", ["ms,rad,rad", "s,deg,rad", "[s],[rad],[deg]"])
+def test_two_units_of_one_column_are_refused(write, below):
+    names, *rows = plain(ANGLE).split("\n")
+    with pytest.raises(DataFileError, match="one unit of"):
+        read_log(write("\n".join([names, below, *rows])))
+
+
+def test_two_spellings_of_one_unit_are_one(write):
+    names, *rows = plain(ANGLE).split("\n")
+    found = read_log(write("\n".join([names, "sec,RAD,rad", *rows])))
+    assert found["time"][-1] == pytest.approx(T[-1])
+
+
+@pytest.mark.parametrize("empty", ["", "NaN", "#N/A"])
+def test_a_row_with_an_empty_cell_is_a_gap_and_said(write, empty):
+    pressure = [f"{x:.3g}" for x in 10 * ANGLE]
+    pressure[40] = empty
+    rows = [f"{t:.9g},{a:.9g},1,{p}" for t, a, p in zip(T, ANGLE, pressure, strict=True)]
+    path = write("\n".join(["time [s],angle [rad],reference [rad],pressure [kPa]", *rows, ""]))
+    assert any("without pressure" in words for words in read_log(path).repairs)
+    assert settled(path)[0] == pytest.approx(TRUE, abs=0.05)
+
+
+def test_a_time_that_is_no_number_is_no_comment(write):
+    rows = plain(ANGLE).split("\n")
+    rows[30] = "#N/A" + rows[30][rows[30].index(",") :]
+    with pytest.raises(DataFileError, match="line 31"):
+        read_log(write("\n".join(rows)))
+
+
+PADS = np.random.default_rng(3).uniform(0.2, 4, (60, 2)).round(3)
+PRESSES = [f"{a},{b},{'point' if a > 2 else 'line'},{k}" for k, (a, b) in enumerate(PADS)]
+
+
+def test_presses_that_were_appended_under_their_names_are_all_read(write):
+    lines = ["e1,e2,kind,press", *PRESSES[:20], "e1,e2,kind,press", *PRESSES[20:], ""]
+    with pytest.warns(LeftOutWarning, match="stand again in line 22"):
+        found = read_readings(write("\n".join(lines)), label="kind", group="press")
+    np.testing.assert_array_equal(found.voltages, PADS)
+
+
+def test_presses_that_are_left_out_are_said(write):
+    lines = ["e1,e2,kind,press", *PRESSES[:20], "# " + PRESSES[20], *PRESSES[21:], ""]
+    with pytest.warns(LeftOutWarning, match="line 22, a comment"):
+        assert (
+            len(read_readings(write("\n".join(lines)), label="kind", group="press").voltages) == 59
+        )
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("code", lambda k: k % 3), ("force", lambda k: 0.7 + 0.01 * (k * 37 % 11)),
+     ("level", lambda k: k % 5), ("day", lambda k: "2024-03-05")],
+)  # fmt: skip
+def test_a_column_that_is_no_element_must_be_named(write, name, value):
+    lines = [f"e1,e2,kind,press,{name}", *(f"{row},{value(k)}" for k, row in enumerate(PRESSES))]
+    path = write("\n".join([*lines, ""]))
+    with pytest.raises(DataFileError, match=f"{name}.*channels="):
+        read_readings(path, label="kind", group="press")
+    found = read_readings(path, label="kind", group="press", channels=["e1", "e2"])
+    np.testing.assert_array_equal(found.voltages, PADS)
+
+
+@pytest.mark.parametrize("largest", [12.0, 300.0])
+def test_a_strain_that_may_be_per_cent_is_asked_for(write, largest):
+    share = largest / 3 * STRAIN
+    with pytest.raises(DataFileError, match="%"):
+        read_export(write(table(("Strain", "Stress [Pa]"), share, STRESS)))
+
+
+@pytest.mark.parametrize(
+    ("area", "lead"), [("3.2 cm^2", "2 mm"), ("320 mm^2", "0.2 cm"), ("0.00032 m^2", "0.002 m")]
+)
+def test_the_pump_of_a_log_has_any_unit(write, area, lead):
+    path = write(table(("time [s]", "command [rad/s]", "pressure [kPa]"), T, T, T))
+    path.with_suffix(".toml").write_text(f'[header]\narea = "{area}"\nlead = "{lead}"\n')
+    found = pump_of(path, read_log(path))
+    assert (found.area, found.lead) == pytest.approx((3.2e-4, 2e-3))
+
+
+def test_a_pump_of_another_dimension_is_refused(write):
+    path = write(table(("time [s]", "pressure [kPa]"), T, T))
+    path.with_suffix(".toml").write_text('[header]\narea = "3.2 mm"\nlead = "2 mm"\n')
+    with pytest.raises(DataFileError, match="area"):
+        pump_of(path, read_log(path))

@@ -113,7 +113,7 @@ def test_thousands_are_told_from_decimals_by_the_other_numbers(table, text, numb
         ("1,2\n3,4\n", "a number in line 1, before any name"),
         ("time,force\n", "no line with a number"),
         ("", "no line with a number"),
-        ("t,p\n1,2\n3,4\nt,p\n1,2\n3,4\n", "table 1 under line 1, 2 rows; table 2 under line 4"),
+        ("t,p\n1,2\n3,4\n\nt,p\n1,2\n3,4\n", "table 1 under line 1, 2 rows; table 2 under line 5"),
         (b"PK\x03\x04", "expected text.*save the sheet as CSV"),
         ('t,p\n"1,2\n3,4\n', "expected"),
     ],

@@ -32,6 +32,7 @@ from softgrip.logs.gaps import period_of
 from softgrip.logs.pump import pump_of
 from softgrip.logs.pushes import prior, reference_noise
 from softgrip.logs.reader import kept_log, read_log
+from softgrip.logs.steps import find_step
 from softgrip.provenance import Provenance, data_folder
 from softgrip.pump.capacity import estimate
 from softgrip.pump.elastance import ElastanceModel
@@ -162,23 +163,38 @@ def figure_4_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     for axes, path, design, title in zip(panels, paths, ("actuator", "full"), titles, strict=False):
         if not logs:
             shade(axes, f"pid-{design}", MEASURED, label=LABEL)
+        if logs:
+            _draw_step(axes, path, design)
+            axes.set(title=title, ylabel="angle (deg)")
+            continue
         _draw_log(axes, path, lw=1)
-        step = float(read_log(path)["reference"][-1]) if logs else None
-        model = "the book's model, same step" if logs else "own model"
-        found = own_loop(design, duration=15.0, step=step)
-        axes.plot(found.time, np.ravel(found.measured) / DEG, color=LUDWICK, ls="--", label=model)
+        found = own_loop(design, duration=15.0)
+        angle = np.ravel(found.measured) / DEG
+        axes.plot(found.time, angle, color=LUDWICK, ls="--", label="own model")
         axes.set(title=title, ylabel="angle (deg)", xlim=(0, 15), ylim=(-5, None))
-    panels[-1].set_xlabel("time (s)")
+    panels[-1].set_xlabel("time since the step (s)" if logs else "time (s)")
     drawn.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return drawn
 
 
-def _draw_log(axes: Any, path: Path | str, *, lw: float | None) -> None:
-    """Draw reference and angle of a log, the reference in a line of this width."""
+def _draw_step(axes: Any, path: Path | str, design: str) -> None:
+    """Draw the step of a reader's log since its begin, and the book's model in the same step."""
+    step = find_step(path)
+    _draw_log(axes, path, lw=1, begun=step.begun)
+    way = step.target - step.initial
+    found = own_loop(design, duration=float(max(step.time[-1], 1.0)), step=abs(way))
+    angle = (step.initial + np.sign(way) * np.ravel(found.measured)) / DEG
+    model = "the book's model, same step"
+    axes.plot(found.time, angle, color=LUDWICK, ls="--", label=model)
+
+
+def _draw_log(axes: Any, path: Path | str, *, lw: float | None, begun: float = 0.0) -> None:
+    """Draw reference and angle of a log since a time [s], the reference in a line of this width."""
     log = read_log(path)
-    axes.plot(log["time"], log["reference"] / DEG, color=PRINTED, lw=lw, label="reference")
+    time = log["time"] - begun
+    axes.plot(time, log["reference"] / DEG, color=PRINTED, lw=lw, label="reference")
     label = str(log.header.provenance)
-    axes.plot(log["time"], log["angle"] / DEG, color=MEASURED, lw=1, label=label)
+    axes.plot(time, log["angle"] / DEG, color=MEASURED, lw=1, label=label)
 
 
 @figure("4.7", Provenance.SIMULATED)

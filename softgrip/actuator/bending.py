@@ -10,6 +10,9 @@ from softgrip.arrays import Floats, Number, check_positive
 from softgrip.errors import InvalidInputError
 from softgrip.units import MM, MPa
 
+LARGEST_POWER = 20.0
+"""Of Ludwick's law: those of elastomers are up to 3; far above, torques have no number any more."""
+
 
 @dataclass(frozen=True)
 class Finger:
@@ -39,9 +42,11 @@ class Finger:
 
 def check_power(fractional_power: float) -> None:
     """Raise InvalidInputError unless n is a finite number >= 1, as Section 3.2 has it."""
-    if not (np.isfinite(fractional_power) and fractional_power >= 1):
+    if not 1 <= fractional_power <= LARGEST_POWER:
         raise InvalidInputError(
-            "fractional_power", expected="a finite number >= 1", got=fractional_power
+            "fractional_power",
+            expected=f"a finite number >= 1, up to {LARGEST_POWER:g}",
+            got=fractional_power,
         )
 
 

@@ -6,9 +6,8 @@ from pathlib import Path
 from typing import Literal, get_args, overload
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.stats import f as fisher
-from scipy.stats import linregress
 
 from softgrip.arrays import Floats, check_positive, floats
 from softgrip.board.errors import WrongBoardError
@@ -166,7 +165,7 @@ def fit_sensor(
 
 def _curve(x: Floats, y: Floats, pole: float | None) -> SensorCurve:
     """Return the line in the counts, or in their inverse from a pole, by least squares."""
-    line = linregress(x if pole is None else 1 / (x - pole), y)
+    line = scipy.stats.linregress(x if pole is None else 1 / (x - pole), y)
     gain, offset = float(line.slope), float(line.intercept)
     found = (gain, offset, 0.0, float(x.min()), float(x.max()))
     curve = SensorLine(*found) if pole is None else DividerCurve(*found, pole)
@@ -189,7 +188,7 @@ def _bend(x: Floats, y: Floats, curve: SensorCurve) -> tuple[float, float]:
     if x.size == 3 or left == 0:
         return bend, 0.0
     ratio = (float(np.sum(rest**2)) - left) / (left / (x.size - 3))
-    return bend, float(fisher.sf(max(ratio, 0.0), 1, x.size - 3))
+    return bend, float(scipy.special.fdtrc(1, x.size - 3, max(ratio, 0.0)))
 
 
 @dataclass(frozen=True)

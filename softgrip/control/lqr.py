@@ -6,16 +6,21 @@ gain*. The matrices are taken at their word. Were the gain in B, the weights wou
 with p times its square do, and R the same; what holds for every p holds for that reading too.
 """
 
-from dataclasses import dataclass
-from typing import final
+from __future__ import annotations
 
-import control
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, final
+
 import numpy as np
 
 from softgrip.arrays import Floats, check_positive, read_only
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.second_order import SecondOrder
 from softgrip.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    import control
+
 
 FINGER = SecondOrder(2.86, 0.7)
 """Design 1: natural frequency of Table 3.3, damping ratio of Section 3.4, without its gain."""
@@ -83,6 +88,8 @@ def integrating_finger(damping: float, stiffness: float, gain: float) -> control
 
     The plant of Chapters 3 and 6: its states are angle, rate and acceleration over the gain.
     """
+    import control
+
     return control.ss(
         [[0, 1, 0], [0, 0, 1], [0, -stiffness, -damping]], [[0], [0], [1]], [[gain, 0, 0]], 0
     )
@@ -108,6 +115,8 @@ def lqr_gain(finger: SecondOrder, weights: Weights) -> Floats:
     >>> lqr_gain(FINGER, Weights()).round(3).tolist()
     [10.0, 6.07, 1.304]
     """
+    import control
+
     plant = canonical_form(finger)
     gain, _, _ = control.lqr(plant.A, plant.B, weights.Q, weights.R)
     return np.asarray(gain[0], dtype=np.float64)
@@ -118,6 +127,8 @@ def closed_loop(finger: SecondOrder, weights: Weights) -> control.StateSpace:
 
     The plant integrates, so ``u = -K (x - x_reference)`` leaves no error. The gain in C cancels.
     """
+    import control
+
     plant, gain = canonical_form(finger), lqr_gain(finger, weights)[None, :]
     return control.ss(
         plant.A - plant.B @ gain, plant.B * gain[0, 0], plant.C, 0, inputs=1, outputs=1
@@ -131,6 +142,8 @@ def step_response(
 
     The slowest pole sets the length: what is left at its end is some 1e-5.
     """
+    import control
+
     loop = closed_loop(finger, weights)
     time = np.linspace(0, 12 / float(-loop.poles().real.max()), points)
     found = control.forced_response(loop, time, np.ones((1, points)), squeeze=False)

@@ -1,15 +1,20 @@
 """PID controller with filtered derivative: sampled, with anti-windup, and as a state space."""
 
-from dataclasses import dataclass
-from typing import Literal, final, get_args
+from __future__ import annotations
 
-import control
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, final, get_args
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats, Number, check_positive, chosen, floats
 from softgrip.checks import check_finite, samples, takes_numbers
 from softgrip.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    import control
+
 
 PERIOD = 0.025
 """Time between two updates on the rig, s."""
@@ -170,6 +175,8 @@ def pid_state_space(gains: Gains) -> control.StateSpace:
     >>> pid_state_space(Gains(1.0, 2.0)).nstates, pid_state_space(Gains(1.0, 2.0, 3.0)).nstates
     (1, 2)
     """
+    import control
+
     if any(np.ndim(gain) for gain in (gains.kp, gains.ki, gains.kd)):
         raise InvalidInputError("gains", expected="one number each", got=gains)
     tau = gains.derivative_filter

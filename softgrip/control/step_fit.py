@@ -4,8 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import least_squares
-from scipy.stats import t as student
+import scipy
 
 from softgrip.arrays import Floats
 from softgrip.checks import record, takes_numbers
@@ -132,7 +131,7 @@ def fit_step(time: Floats, output: Floats, name: str) -> StepFit:
     free = [np.inf, np.inf]
     low = [0.0, 1e-5 * end, *([LEAST_DAMPING] if dampings else []), *(-v for v in free)]
     high = [end, 100 * end, *([MOST_DAMPING] if dampings else []), *free]
-    fit = least_squares(
+    fit = scipy.optimize.least_squares(
         residual,
         np.clip(best, low, high),
         bounds=(low, high),
@@ -158,7 +157,7 @@ def fit_step(time: Floats, output: Floats, name: str) -> StepFit:
         name,
         numbers(fit.x),
         errors,
-        float(student.ppf((1 + CONFIDENCE) / 2, left)),
+        float(scipy.special.stdtrit(left, (1 + CONFIDENCE) / 2)),
         np.asarray(fit.fun * scale),
         len(best),
     )

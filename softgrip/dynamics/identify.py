@@ -3,11 +3,11 @@
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.optimize import OptimizeResult, least_squares
-from scipy.stats import t as student
 
 from softgrip.arrays import Floats, floats
 from softgrip.checks import takes_numbers
@@ -166,7 +166,7 @@ def identify(
             + (f"; {one_lag}" if damping > 1 else ""),
         )
     scale = np.array([1.0, 1.0, y_scale / u_scale, y_scale, 1.0])[:count]
-    margin = student.ppf((1 + CONFIDENCE) / 2, t.size - count) * error * scale
+    margin = scipy.special.stdtrit(t.size - count, (1 + CONFIDENCE) / 2) * error * scale
     values = fit.x * scale
     w, z, k, offset, *found = (
         Estimate(float(v), float(e), float(v - m), float(v + m))
@@ -232,8 +232,8 @@ def _start(
     return np.array([*system, *line, *([late] if lates.size > 1 else [])])
 
 
-def _fit(residual: Callable[[Floats], Floats], bounds: Floats, start: Floats) -> OptimizeResult:
-    return least_squares(
+def _fit(residual: Callable[[Floats], Floats], bounds: Floats, start: Floats) -> Any:
+    return scipy.optimize.least_squares(
         residual,
         np.clip(start, *bounds),
         bounds=tuple(bounds),

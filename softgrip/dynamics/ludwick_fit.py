@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import least_squares
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from softgrip.arrays import Floats, check_positive, floats
 from softgrip.checks import takes_numbers
@@ -138,7 +138,7 @@ def fit_finger(
         )
     relative = np.zeros(4)
     relative[free] = error
-    margin = np.exp(student.ppf((1 + CONFIDENCE) / 2, t.size - fit.x.size) * relative)
+    margin = np.exp(stdtrit(t.size - fit.x.size, (1 + CONFIDENCE) / 2) * relative)
     above = values(fit.x[:, None])[:, 0] - LEAST
     columns = (LEAST + above, above * relative, LEAST + above / margin, LEAST + above * margin)
     mass, damping, spring, power = (

@@ -1,14 +1,19 @@
 """A finger as a linear second-order system, Eq. (4.11)-(4.15): poles, responses, state spaces."""
 
-from dataclasses import dataclass
-from typing import Literal, final, get_args
+from __future__ import annotations
 
-import control
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, final, get_args
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from softgrip.arrays import Floats, check_positive, floats
 from softgrip.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    import control
+
 
 Hold = Literal["linear", "zero"]
 
@@ -52,7 +57,7 @@ class SecondOrder:
         return complex(fast), complex(slow)
 
     @classmethod
-    def from_rates(cls, a: complex, b: complex, gain: float = 1.0) -> "SecondOrder":
+    def from_rates(cls, a: complex, b: complex, gain: float = 1.0) -> SecondOrder:
         """Return the system whose response decays at the rates a and b, Eq. (4.12).
 
         Args:
@@ -128,6 +133,8 @@ def state_space(system: SecondOrder) -> control.StateSpace:
     The states are angle and rate. The equation is printed with P in its numerator, which is then
     the angle and not its ratio to the pressure; here P is the input.
     """
+    import control
+
     w = system.natural_frequency
     return control.ss(
         [[0, 1], [-(w**2), -2 * system.damping_ratio * w]],
@@ -152,6 +159,8 @@ def full_state_space(system: SecondOrder, pump_gain: float) -> control.StateSpac
         pump_gain: Pressure rate per motor speed, ``A l / (2 pi C_i)`` of Eq. (4.5), Pa/s per rad/s,
             > 0, for one constant capacity C_i; else InvalidInputError is raised.
     """
+    import control
+
     check_positive(pump_gain=pump_gain)
     w = system.natural_frequency
     return control.ss(

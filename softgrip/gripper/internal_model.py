@@ -5,19 +5,24 @@ With ``u_c = u_ff - u_fb``, ``u_ff = H P-dagger Y_d``, ``y_delta = y - P u_c`` a
 control.
 """
 
-from dataclasses import dataclass
-from typing import Literal, final
+from __future__ import annotations
 
-import control
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, final
+
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.linalg import block_diag
 
 from softgrip.arrays import Floats, check_positive, read_only
 from softgrip.checks import samples
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.inversion import LeftInverse, filtered_inverse
 from softgrip.gripper.plant import Gripper, sampled, state_space
+
+if TYPE_CHECKING:
+    import control
+
 
 PERIOD = 0.1
 """Sampling time of Section 6.4, s."""
@@ -56,6 +61,8 @@ class ControllerMatrices:
 
     def linear(self) -> control.StateSpace:
         """Return the controller when nothing limits it: from [y, Y_d] to u."""
+        import control
+
         D = np.concatenate([self.D_measured, self.D_target])[None]
         B = np.hstack([self.B_measured, self.B_target]) + self.B_sent[:, None] * D
         return control.ss(self.A + np.outer(self.B_sent, self.C), B, self.C[None], D, self.period)
@@ -97,7 +104,7 @@ def controller_matrices(
         B_d, D_d = B_f, D_f
     else:
         back = sampled(filtered_inverse(inverse, feedback_filter), period, method)
-        A_f, C_f = block_diag(ahead[0], back[0]), np.hstack([ahead[2], back[2]])
+        A_f, C_f = scipy.linalg.block_diag(ahead[0], back[0]), np.hstack([ahead[2], back[2]])
         B_d = np.vstack([ahead[1], np.zeros_like(back[1])])
         B_f = np.vstack([np.zeros_like(ahead[1]), back[1]])
         D_d, D_f = ahead[3], back[3]

@@ -5,17 +5,22 @@ each finger tells which input its angle asks for, and the weights say whom to be
 in the image of P all agree; they differ in what they make of targets and of errors outside it.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import final
+from typing import TYPE_CHECKING, final
 
-import control
 import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats, read_only
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.plant import Gripper
+
+if TYPE_CHECKING:
+    import control
+
 
 Complex = np.ndarray[tuple[int, ...], np.dtype[np.complex128]]
 
@@ -118,6 +123,8 @@ def filtered_inverse(inverse: LeftInverse, low_pass: control.StateSpace) -> cont
         InvalidInputError: If the filter has another form or falls off too slowly: ``H P-dagger`` is
             then improper.
     """
+    import control
+
     A, B, C = low_pass.A, low_pass.B, low_pass.C
     if low_pass.ninputs != 1 or low_pass.noutputs != 1 or low_pass.dt:
         raise InvalidInputError(
@@ -159,6 +166,8 @@ def _product(polynomials: Iterable[Floats]) -> Floats:
 
 def _row_state_space(numerators: list[Floats], denominator: Floats) -> control.StateSpace:
     """Return the strictly proper row ``numerators / denominator`` in observable form."""
+    import control
+
     order = len(denominator) - 1
     A = np.eye(order, k=1)
     A[:, 0] = -denominator[1:] / denominator[0]

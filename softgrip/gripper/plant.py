@@ -1,15 +1,19 @@
 """The gripper's plant: several fingers on one pump, Eq. (6.4)-(6.16), (6.26) and (6.27)."""
 
-from dataclasses import astuple, dataclass
-from typing import final
+from __future__ import annotations
 
-import control
+from dataclasses import astuple, dataclass
+from typing import TYPE_CHECKING, final
+
 import numpy as np
-from scipy.signal import cont2discrete
+import scipy
 
 from softgrip.arrays import Floats, check_positive
 from softgrip.control.lqr import integrating_finger
 from softgrip.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    import control
 
 
 @final
@@ -45,7 +49,7 @@ class FingerDynamics:
         stiffness: float,
         torque_per_pressure: float,
         pump_gain: float,
-    ) -> "FingerDynamics":
+    ) -> FingerDynamics:
         """Return the element from the parameters of finger, Eq. (6.9), and pump, Eq. (6.14).
 
         Args:
@@ -120,6 +124,8 @@ def stacked_state_space(gripper: Gripper) -> control.StateSpace:
     states that they share is driven, so with two fingers or more this realization is not
     controllable. `state_space` has the pump once.
     """
+    import control
+
     parts = [finger_state_space(finger) for finger in gripper.fingers]
     size, count = 3 * len(parts), len(parts)
     A, B, C = np.zeros((size, size)), np.zeros((size, 1)), np.zeros((count, size))
@@ -136,6 +142,8 @@ def state_space(gripper: Gripper) -> control.StateSpace:
     integrator is in it once. The states are the integral of the input, then angle over gain and
     rate over gain of each finger. Outputs are the angles, rad.
     """
+    import control
+
     count = len(gripper.fingers)
     size = 1 + 2 * count
     A, B, C = np.zeros((size, size)), np.zeros((size, 1)), np.zeros((count, size))
@@ -155,7 +163,9 @@ def sampled(
 
     `method` is that of `scipy.signal.cont2discrete`, by default exact for a held input.
     """
-    A, B, C, D, _ = cont2discrete((system.A, system.B, system.C, system.D), period, method)
+    A, B, C, D, _ = scipy.signal.cont2discrete(
+        (system.A, system.B, system.C, system.D), period, method
+    )
     return A, B, C, D
 
 
@@ -192,6 +202,8 @@ def structure(system: control.StateSpace) -> Structure:
     Args:
         system: One input, n outputs, a pole other than zero.
     """
+    import control
+
     poles = np.linalg.eigvals(system.A)
     A = system.A / np.abs(poles).max()
     controllable = np.linalg.matrix_rank(control.ctrb(A, system.B))

@@ -1,11 +1,18 @@
 """The filters H(s) of Chapter 6 that make the inverse proper: printed, and the plain low-pass."""
 
-import control
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import check_positive, read_only
 from softgrip.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    import control
+
 
 FAST = (
     (1009.0, 2.52e5, 6.829e5, 1.027e6),
@@ -32,6 +39,8 @@ def filter_state_space(numerator: ArrayLike, denominator: ArrayLike) -> control.
     >>> filter_state_space(*FAST)(0).round(12).real.item()
     1.0
     """
+    import control
+
     top = np.trim_zeros(np.atleast_1d(np.asarray(numerator, dtype=np.float64)), "f")
     low = np.trim_zeros(np.atleast_1d(np.asarray(denominator, dtype=np.float64)), "f")
     order = len(low) - 1

@@ -1,17 +1,23 @@
 """Multiplicative uncertainty: how far real fingers stray from the model, Eq. (6.17) and (6.18)."""
 
-from collections.abc import Sequence
+from __future__ import annotations
 
-import control
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.optimize import linprog
 
 from softgrip.arrays import Floats, check_positive
 from softgrip.errors import InvalidInputError
 from softgrip.gripper.inversion import Complex
 from softgrip.gripper.plant import FingerDynamics
 from softgrip.gripper.shaping_filter import filter_state_space
+
+if TYPE_CHECKING:
+    import control
+
 
 DAMPING_BOUND, STIFFNESS_BOUND = 0.143, 0.059
 """Largest deviations of C_n and K_n from their means over the step tests of Section 6.4."""
@@ -84,6 +90,8 @@ def bounding_weight(
     Raises:
         InvalidInputError: If shapes or values do not fit.
     """
+    import control
+
     w, size = np.asarray(frequency, dtype=np.float64), np.asarray(bound, dtype=np.float64)
     if w.shape != size.shape or w.ndim != 1 or order < 1 or not (w.min() > 0 and size.min() > 0):
         raise InvalidInputError(
@@ -111,7 +119,7 @@ def bounding_weight(
                 [none, beyond],
             ]
         )
-        found = linprog(
+        found = scipy.optimize.linprog(
             np.zeros(2 * order + 2),
             A_ub=sides,
             b_ub=np.repeat([0.0, -LEAST], [2 * w.size, 2 * len(beyond)]),

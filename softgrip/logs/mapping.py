@@ -8,8 +8,8 @@ A file ``run.toml`` beside ``run.csv``::
     angle = "flex"         # the file says its unit
 
     [header]               # what the log does not say, as far as it is known
-    area = "3.2e-4 m^2"
-    lead = "2e-3 m"
+    area = "3.2 cm^2"
+    lead = "2 mm"
 
     [text]                 # where the file can be read in two ways
     decimal = ","
@@ -66,7 +66,8 @@ def mapping_beside(path: Path) -> LogMapping:
             if name == "text" and key not in TEXT_KEYS:
                 raise DataFileError(file, expected=f"keys of {', '.join(TEXT_KEYS)}", got=key)
             if not isinstance(value, int if key == "table" and name == "text" else str):
-                raise DataFileError(file, expected=f"{key} of another type", got=repr(value))
+                expected = "a whole number" if key == "table" else 'words, such as "3.2 cm^2"'
+                raise DataFileError(file, expected=f"{key} as {expected}", got=repr(value))
     return LogMapping(**found)
 
 

@@ -1,14 +1,16 @@
 """The pump of a log: which it is, and what it has swept, over the true times of its rows."""
 
+import warnings
 from pathlib import Path
 
 import numpy as np
 
 from softgrip.arrays import Floats, intervals
-from softgrip.errors import DataFileError
+from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.logs.gaps import even_clock, gaps_of, period_of, places, refuse_late_start
 from softgrip.logs.schema import Log
 from softgrip.pump.flow import Pump
+from softgrip.quantities import in_si
 
 LONGEST = 2.0
 """Longest gap, s, over which a command that is the same before and after it is taken as held. A
@@ -18,28 +20,37 @@ START = 1500.0
 SURE = 2.0
 """Standard errors by which a start must be above it."""
 LEAST_ROWS = 8
+LEAST_PLACES = 4
+"""Volumes that differ: a parabola has three numbers, whose errors want one more."""
 MOST_HIDDEN = 0.55
 """Share of the volume that is swept at low pressure of which one gap may hide the pressure. Up to
 it a straight line moves the capacity by 4 % at most, up to 0.6 by 6 %: gaps anywhere in pushes."""
 
 
 def pump_of(path: Path, log: Log) -> Pump:
-    """Return the pump that a log names by ``area`` in m^2 and ``lead`` in m.
+    """Return the pump whose ``area`` and ``lead`` a log names, each with its unit.
 
     Raises:
-        DataFileError: If the header lacks one of them, or has another unit.
+        DataFileError: If the header lacks one of them, or one is no area or no length.
     """
     notes = log.header.notes
+    given = [notes.get(name, "") for name in ("area", "lead")]
     try:
-        area, lead = (notes[name].split() for name in ("area", "lead"))
-        if (area[1], lead[1]) != ("m^2", "m"):
-            raise ValueError(f"{area[1]}, {lead[1]}")
-        return Pump(float(area[0]), float(lead[0]))
-    except (KeyError, ValueError, IndexError) as error:
-        raise DataFileError(
-            path, expected="'area: <number> m^2' and 'lead: <number> m' in the header",
-            got=repr(error),
-        ) from None  # fmt: skip
+        if all(given):
+            return Pump(
+                *(
+                    in_si(name, words, unit)
+                    for name, words, unit in zip(("area", "lead"), given, ("m^2", "m"), strict=True)
+                )
+            )
+        got = "area and lead of the pump: " + ", ".join(words or "none" for words in given)
+    except InvalidInputError as error:
+        got = str(error)
+    raise DataFileError(
+        path,
+        expected="the pump in the header, such as area: 3.2 cm^2 and lead: 2 mm",
+        got=got,
+    )
 
 
 def swept_volume(path: Path | str, log: Log, flow: Floats) -> Floats:
@@ -119,11 +130,21 @@ def check_start(path: Path | str, swept: Floats, pressure: Floats) -> None:
         DataFileError: If there are fewer than `LEAST_ROWS` rows, or a parabola through the pressure
             begins above `START`, by more than noise makes it.
     """
-    if swept.size < LEAST_ROWS or not np.ptp(swept) > 0:
+    volumes = np.unique(swept).size
+    if swept.size < LEAST_ROWS or volumes < LEAST_PLACES:
         raise DataFileError(
-            path, expected=f"{LEAST_ROWS} rows of a push at low pressure", got=str(swept.size)
+            path,
+            expected=f"{LEAST_ROWS} rows of a push at low pressure, {LEAST_PLACES} volumes or more",
+            got=f"{swept.size}, {volumes}",
         )
-    found, covariance = np.polyfit(swept / np.ptp(swept), pressure, 2, cov=True)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", np.exceptions.RankWarning)
+        try:
+            found, covariance = np.polyfit(swept / np.ptp(swept), pressure, 2, cov=True)
+        except np.exceptions.RankWarning:
+            raise DataFileError(
+                path, expected="volumes of a push that are spread", got="all but a few are one"
+            ) from None
     begun = float(found[-1] - SURE * covariance[-1, -1] ** 0.5)
     if begun > START:
         raise DataFileError(

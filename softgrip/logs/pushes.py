@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from softgrip.arrays import Floats, intervals
 from softgrip.errors import DataFileError
@@ -80,7 +80,7 @@ def _fit_growth(swept: Floats, pressure: Floats, capacity: float) -> float:
         result: Floats = (law.modified_pressure(swept, 1.0, capacity, growth) - pressure) / largest
         return result
 
-    found = least_squares(misfit, [-0.5], bounds=(-0.999, 10.0))
+    found = scipy.optimize.least_squares(misfit, [-0.5], bounds=(-0.999, 10.0))
     return float(found.x[0] / largest)
 
 

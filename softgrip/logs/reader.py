@@ -17,6 +17,9 @@ from softgrip.provenance import Provenance, data_file
 from softgrip.quantities import convert, is_unit, si_unit
 from softgrip.text_table import TextTable, read_table
 
+MOST_EMPTY = 0.2
+"""Share of the rows that may lack a value of a column: they are left out, as gaps. Where more do,
+the column is."""
 ELSEWHERE = "another program"
 """Back end of a log without our header."""
 
@@ -29,7 +32,8 @@ def read_log(path: Path | str, *, columns: Mapping[str, str] | None = None) -> L
     or by a TOML of the log's name beside it, see `softgrip.logs.mapping`. What has no unit is left
     out. Each value comes in SI.
 
-    Mended, and said in `Log.repairs`: a cut last line is left out, as is a last row with a value
+    Mended, and said in `Log.repairs`: in a log of another program, a row with an empty cell, or a
+    column with many, is left out; a cut last line is left out, as is a last row with a value
     that is not a number; a row written twice counts once; another unit is converted. Missing rows
     are not put back, but said there too, with their place; so are rows that come too early, and a
     start later than a run's.
@@ -50,7 +54,9 @@ def read_log(path: Path | str, *, columns: Mapping[str, str] | None = None) -> L
     keys = _keys(table)
     chosen = _chosen(table, told, strict=bool(keys))
     raw = {name: table.numbers(at, missing=True) for name, (at, _) in chosen.items()}
-    rows, repairs = _whole_rows(table, chosen, raw)
+    emptied = [] if keys else _without_the_empty(table, told, chosen, raw)
+    rows, repairs = _whole_rows(table, chosen, raw, strict=bool(keys))
+    repairs += emptied
     if not told.columns:
         taken = {at for at, _ in chosen.values()}
         left = [k for k, name in enumerate(table.names) if k not in taken and name != EVENT]
@@ -75,8 +81,35 @@ def read_log(path: Path | str, *, columns: Mapping[str, str] | None = None) -> L
     return replace(log, repairs=(*repairs, *found))
 
 
+def _without_the_empty(
+    table: TextTable,
+    told: LogMapping,
+    chosen: dict[str, tuple[int, str]],
+    raw: dict[str, Floats],
+) -> list[str]:
+    """Leave out columns that are empty in many rows, and say so: the others have these rows.
+
+    Raises:
+        DataFileError: If one of them was told to be read.
+    """
+    empty = {name: float(np.mean(np.isnan(values))) for name, values in raw.items()}
+    said = []
+    for name in [name for name, share in empty.items() if share > MOST_EMPTY and name != "time"]:
+        if name in told.columns:
+            first = int(np.flatnonzero(np.isnan(raw[name]))[0])
+            got = repr(table.rows[first][chosen[name][0]])
+            raise table.refusal(f"a finite number under {name}", got, table.lines[first])
+        del chosen[name], raw[name]
+        said.append(f"{name} was left out: {empty[name]:.0%} of its cells are empty")
+    return said
+
+
 def _whole_rows(
-    table: TextTable, chosen: Mapping[str, tuple[int, str]], raw: Mapping[str, Floats]
+    table: TextTable,
+    chosen: Mapping[str, tuple[int, str]],
+    raw: Mapping[str, Floats],
+    *,
+    strict: bool,
 ) -> tuple[list[int], list[str]]:
     """Return the rows that count, and what was left out."""
     rows, repairs = [*range(len(table.rows))], list(table.notes)
@@ -89,6 +122,11 @@ def _whole_rows(
     repairs += [f"line {table.lines[k]}, the same as the one before, was left out" for k in doubled]
     rows = [k for k in rows if k not in set(doubled)]
     for name, values in raw.items():
+        lacking = [k for k in rows if not np.isfinite(values[k])]
+        if lacking and not strict and name != "time":
+            more = f" and {len(lacking) - 1} more" if len(lacking) > 1 else ""
+            repairs.append(f"line {table.lines[lacking[0]]}{more}, without {name}, was left out")
+            rows = [k for k in rows if k not in set(lacking)]
         for k in rows:
             if not np.isfinite(values[k]):
                 got = repr(table.rows[k][chosen[name][0]])
@@ -164,9 +202,16 @@ def _chosen(table: TextTable, told: LogMapping, *, strict: bool) -> dict[str, tu
             if known:
                 found[ours] = at, unit
     if "time" not in found:
+        if bare := [name for name in table.names if name.casefold() == "time"]:
+            raise table.refusal(
+                f"a unit of {bare[0]!r}, in its name, in a row below, or told: "
+                f'columns={{"time": "{bare[0]} [s]"}}, or in a TOML beside the log',
+                "none",
+            )
+        told_some = "; where some columns are told, all that count must be" if given else ""
         raise table.refusal(
             "a column 'time' with its unit, or one that is told to be it: "
-            'columns={"time": "t [ms]"}, or a TOML beside the log',
+            'columns={"time": "t [ms]"}, or a TOML beside the log' + told_some,
             ", ".join(map(repr, table.headings)),
         )
     return found

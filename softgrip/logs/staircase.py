@@ -60,7 +60,10 @@ def lag(reference: ArrayLike, angle: ArrayLike, period: float, *, longest: float
             expected=f"two arrays (N,), not constant, N >= {2 * most}",
             got=(r.shape, y.shape),
         )
-    alike = [np.corrcoef(r[: r.size - k], y[k:])[0, 1] for k in range(most + 1)]
+    # Where one of both is constant there is no correlation: such a lag is the least alike.
+    with np.errstate(invalid="ignore", divide="ignore"):
+        alike = [np.corrcoef(r[: r.size - k], y[k:])[0, 1] for k in range(most + 1)]
+    alike = np.nan_to_num(alike, nan=-1.0).tolist()
     return int(np.argmax(alike)) * period
 
 

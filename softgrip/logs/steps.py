@@ -26,7 +26,12 @@ line has the whole noise of its two ends: over a whole window it moves settling 
 second."""
 
 END = 2.0
-"""Length of the end of a record that counts as its steady state, s."""
+"""Length of the end of a record that counts as its steady state, s; the last quarter
+of a record of less than twice that."""
+BENT = 0.1
+"""Share of a constant reference, and `SURE` times the noise, by which the first angle must be off
+zero for the finger to have been bent before the step."""
+SURE = 4.0
 
 SHARES, ANGLES = (0.02, 0.05), (2 * DEG, 5 * DEG)
 """Half widths of the bands in which a step is judged: shares of it, and rad."""
@@ -113,16 +118,18 @@ def judge_step(
             "angle", expected=f"shape (..., {t.size}), not infinite", got=raw.shape
         )
     y = smoothed(raw, float((t[-1] - t[0]) / (t.size - 1)), window=window)
-    own = final_value(t, raw, window=END)
+    lasted = float(t[-1] - t[0])
+    end = END if lasted >= 2 * END else lasted / 4
+    own = final_value(t, raw, window=end)
     middle = np.broadcast_to(target, own.shape) if about == "reference" else own
-    tail = t >= t[-1] - END
+    tail = t >= t[-1] - end
     bands = [(x, False) for x in SHARES] + [(x, True) for x in (*ANGLES, band)]
     found = [
         settling_time(t, y, final=middle, initial=initial, band=width, absolute=absolute)
         for width, absolute in bands
     ]
     two_percent, five_percent, two_deg, five_deg, own_band = (
-        np.where(time > t[-1] - END, np.inf, time) for time in found
+        np.where(time > t[-1] - end, np.inf, time) for time in found
     )
     return StepResponse(
         settled_2_percent=two_percent,
@@ -166,6 +173,73 @@ def refuse_slow(path: Path | str, log: Log, *, window: float = WINDOW) -> None:
         )
 
 
+@dataclass(frozen=True)
+class LoggedStep:
+    """The one step of a log.
+
+    Attributes:
+        begun: When, by the log's clock, s.
+        initial, target: Angle before, and reference after it, rad.
+        time: Since then, s, even, shape (N,).
+        angle: rad, shape (N,), on straight lines from row to row.
+        measured: Which samples have a row, shape (N,).
+    """
+
+    begun: float
+    initial: float
+    target: float
+    time: Floats
+    angle: Floats
+    measured: Flags
+
+
+def find_step(path: Path | str, *, window: float = WINDOW) -> LoggedStep:
+    """Find the step of a log.
+
+    A reference that changes once tells it. One number throughout is a step at time 0, from 0, or,
+    where the finger was bent by then, from its first angle.
+
+    Args:
+        path: Of a log with a column `reference` [rad].
+        window: Of the averaging that needs the rows, s.
+
+    Raises:
+        DataFileError: If the log has no reference, its reference is no single step, rows are
+            missing at the start of a step at time 0, or more than `BRIDGED` of the window in one
+            place, or as of `refuse_short` and `refuse_slow`.
+    """
+    log = read_log(path)
+    if lacking := [name for name in ("reference", "angle") if name not in log.columns]:
+        raise DataFileError(path, expected=f"a column {lacking[0]!r}", got=", ".join(log.columns))
+    refuse_slow(path, log, window=window)
+    refuse_gaps(path, log, AVERAGING, above=BRIDGED * window)
+    clock = even_clock(log)
+    angle, reference = clock.lines(log["angle"]), clock.nearest(log["reference"])
+    changes = np.flatnonzero(np.diff(reference))
+    start, begun, initial = 0, 0.0, 0.0
+    if changes.size:
+        start = int(changes[0]) + 1
+        begun, initial = float(clock.time[start]), float(reference[0])
+    else:
+        refuse_late_start(path, log, "the time of the step, which a change of the reference tells")
+        noise = float(np.std(np.diff(angle[angle.size // 2 :]))) / 2**0.5
+        if abs(angle[0]) > max(BENT * abs(reference[-1]), SURE * noise):
+            initial = float(angle[0])
+    if changes.size > 1 or reference[-1] == initial:
+        raise DataFileError(
+            path, expected="a reference with one step", got=f"{changes.size} changes"
+        )
+    refuse_short(path, float(clock.time[-1]) - begun)
+    return LoggedStep(
+        begun,
+        initial,
+        float(reference[-1]),
+        clock.time[start:] - begun,
+        angle[start:],
+        clock.measured[start:],
+    )
+
+
 def judge_step_log(
     path: Path | str,
     *,
@@ -176,41 +250,20 @@ def judge_step_log(
     """Judge the step that a log holds.
 
     Args:
-        path: Of a log with a column `reference` [rad], which either changes once or is one number
-            throughout, the step being at time 0.
+        path: Of the log; see `find_step`.
         about, window, band: As of `judge_step`.
 
     Raises:
-        DataFileError: If the log has no reference, its reference is no single step, rows are
-            missing at the start of a step at time 0, or more than `BRIDGED` of the window in one
-            place, or as of `refuse_short` and `refuse_slow`.
+        DataFileError: As of `find_step`.
     """
-    log = read_log(path)
-    if "reference" not in log.columns:
-        raise DataFileError(path, expected="a column 'reference [rad]'", got=str([*log.columns]))
-    refuse_slow(path, log, window=window)
-    refuse_gaps(path, log, AVERAGING, above=BRIDGED * window)
-    clock = even_clock(log)
-    reference, time = clock.nearest(log["reference"]), clock.time
-    changes = np.flatnonzero(np.diff(reference))
-    start, begun, initial = 0, 0.0, 0.0
-    if changes.size:
-        start = int(changes[0]) + 1
-        begun, initial = float(time[start]), float(reference[0])
-    else:
-        refuse_late_start(path, log, "the time of the step")
-    if changes.size > 1 or reference[-1] == initial:
-        raise DataFileError(
-            path, expected="a reference with one step", got=f"{changes.size} changes"
-        )
-    refuse_short(path, float(time[-1]) - begun)
+    step = find_step(path, window=window)
     return judge_step(
-        time[start:] - begun,
-        clock.lines(log["angle"])[start:],
-        float(reference[-1]),
-        initial=initial,
+        step.time,
+        step.angle,
+        step.target,
+        initial=step.initial,
         about=about,
         window=window,
         band=band,
-        measured=clock.measured[start:],
+        measured=step.measured,
     )

@@ -3,8 +3,7 @@
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.stats import norm
-from scipy.stats import t as student_t
+from scipy.special import ndtr, stdtrit
 
 from softgrip.arrays import Floats, check_positive
 from softgrip.checks import check_not_negative, record, takes_numbers
@@ -60,6 +59,6 @@ def block_bootstrap(
         starts = random.integers(0, strain.size, runs)
         rows = (starts[:, None] + np.arange(length)).ravel() % strain.size
         found.append(estimate(strain[rows], stress[rows] + offset * random.standard_normal()))
-    far = student_t.ppf((1 + confidence) / 2, runs - 1) * (runs / (runs - 1)) ** 0.5
-    low, high = np.quantile(found, [norm.cdf(-far), norm.cdf(far)], axis=0)
+    far = stdtrit(runs - 1, (1 + confidence) / 2) * (runs / (runs - 1)) ** 0.5
+    low, high = np.quantile(found, [ndtr(-far), ndtr(far)], axis=0)
     return tuple(zip(low.tolist(), high.tolist(), strict=True))

@@ -90,7 +90,11 @@ def first_loading(strain: Floats, stress: Floats, *, zero: Zero | None = None) -
         notes.append(f"the strain is counted from {origin:.4g} on")
     preload, error = _preload(strain - origin, stress)
     if preload:
-        notes.append(f"a preload of {preload:.4g} +- {error:.2g} Pa is taken off")
+        notes.append(
+            f"a preload of {preload:.4g} +- {error:.2g} Pa is taken off, as an offset of the load "
+            "cell: had it stretched the specimen before the extension was set to zero, E and n "
+            "would not be the material's"
+        )
     strain, stress = strain[begun] - origin, stress[begun] - preload
     scatter = noise(stress) / float(stress.max())
     if scatter > PRELOAD:

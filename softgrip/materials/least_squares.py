@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.stats import t as student_t
+from scipy.special import stdtrit
 
 from softgrip.arrays import Floats, Number, floats
 from softgrip.checks import check_finite, takes_numbers
@@ -89,7 +89,7 @@ class LinearFit:
             predictors[i] * element * predictors[j]
             for (i, j), element in np.ndenumerate(self.inverse)
         )
-        t = student_t.ppf((1 + confidence) / 2, self.freedom)
+        t = stdtrit(self.freedom, (1 + confidence) / 2)
         return value, t * np.sqrt(self.variance * (1 + leverage))
 
 

@@ -15,14 +15,19 @@ from softgrip.arrays import LARGEST_STRAIN, Floats
 from softgrip.errors import InvalidInputError
 from softgrip.materials.first_loading import Zero, first_loading
 from softgrip.materials.tensile import FEWEST_ROWS, TensileTest
-from softgrip.materials.tester_columns import column
+from softgrip.materials.tester_columns import UNITS, column, misfit
 from softgrip.materials.tester_sizes import area as area_of
 from softgrip.materials.tester_sizes import size
+from softgrip.quantities import expected_units
 from softgrip.text_table import TextTable, read_table
 
 PROPORTIONAL = 0.02
 """Share of the largest stress by which force over area may differ from a stress that is
 engineering."""
+
+
+SOFTEST = 1e3
+"""Stress by strain, Pa, below which no elastomer lies; foams and gels of a few kPa are above."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,6 +90,13 @@ def read_export(
         # Some turn the force only.
         strain = strain if strain.max() - strain[0] > strain[0] - strain.min() else -strain
         stress = -stress
+    stiffness = float(np.ptp(stress) / np.ptp(strain)) if np.ptp(strain) else SOFTEST
+    if stiffness < SOFTEST:
+        raise table.refusal(
+            f"{SOFTEST:g} Pa or more over the whole strain: are the units right, and is the strain "
+            "in %?",
+            f"{stiffness:.3g} Pa",
+        )
     try:
         first = first_loading(strain, stress, zero=zero)
     except InvalidInputError as error:
@@ -107,6 +119,11 @@ def _strain(
             notes.append(f"the strain is that of {found[0]!r}, a logarithm")
             return np.expm1(found[1])
     found = column(table, columns, "extension")
+    if found is None and length is not None and column(table, columns, "strain"):
+        raise table.refusal(
+            "a column of extension; for one of strain, leave the gauge length out",
+            ", ".join(map(repr, table.headings)),
+        )
     if found is None:
         raise _missing(table, "strain, or of extension", "Extension [mm]", "extension")
     gauge, note = size(table, "gauge_length", length)
@@ -156,6 +173,8 @@ def _check_engineering(table: TextTable, stress: Floats, force: Floats) -> None:
 
 
 def _missing(table: TextTable, what: str, such: str, key: str) -> Exception:
+    if other := misfit(table, key):
+        return table.refusal(f"{other!r} as {expected_units(UNITS[key])}", "another unit")
     return table.refusal(
         f'a column of {what}, such as {such!r}; columns={{"{key}": ...}} names another',
         ", ".join(map(repr, table.headings)),

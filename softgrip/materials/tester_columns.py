@@ -6,7 +6,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from softgrip.arrays import LARGEST_STRAIN, Floats
+from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError, UnknownNameError
 from softgrip.quantities import convert, si_unit
 from softgrip.text_cells import heading
@@ -38,6 +38,9 @@ _PLAIN = re.compile(
 _OF = {"strain": ("strain", "extension"), "stress": ("stress", "force")}
 """Names that a column may have: those of a share and of a length are used for one another."""
 
+CERTAIN = 5.0
+"""Of a strain without a unit: up to here it is a share, as who pulls a rubber to 5 % tests none.
+Beyond it, it may as well be per cent."""
 SAME = 1e-3
 """Share of its range by which one column may differ from another that says the same."""
 
@@ -102,6 +105,12 @@ def _may_be(name: str, unit: str, what: str) -> bool:
     return not unit or _si(unit) == UNITS[what]
 
 
+def misfit(table: TextTable, what: str) -> str:
+    """Return the heading of a column that has the name but not the unit; empty if none has."""
+    pairs = zip(table.headings, table.names, table.units, strict=True)
+    return next((heading for heading, name, unit in pairs if unit and _may_be(name, "", what)), "")
+
+
 def _si(unit: str) -> str:
     try:
         return si_unit(unit)
@@ -112,9 +121,12 @@ def _si(unit: str) -> str:
 def _values(table: TextTable, name: str, unit: str, what: str) -> Floats:
     values = table.numbers(name)
     if not unit and UNITS[what] == "1":
-        if np.max(np.abs(values)) > LARGEST_STRAIN:
+        largest = float(np.max(np.abs(values)))
+        if largest > CERTAIN:
             raise table.refusal(
-                f"a unit of {name!r}: columns={{{what!r}: '{name} [%]'}}", f"up to {values.max():g}"
+                f"a unit of {name!r}, in its name or below it: % or 1; or columns={{{what!r}: "
+                f"'{name} [%]'}}",
+                f"numbers up to {largest:g}, which may be {100 * largest:g} % or {largest:g} %",
             )
         return values
     if not unit:

@@ -49,14 +49,13 @@ def size(table: TextTable, what: str, given: float | str | None) -> tuple[float 
         InvalidInputError: If a size is not above zero.
     """
     names, si = SIZES[what]
+    pattern = re.compile(f"{_BEFORE}(?:{names}){_VALUE}", re.IGNORECASE)
+    lines = {line: one for line in table.head if (one := pattern.match(line))}
     if given is not None:
         value = in_si(what, given, si)
         check_positive(**{what: value})
-        return value, ""
-    pattern = re.compile(f"{_BEFORE}(?:{names}){_VALUE}", re.IGNORECASE)
-    found = {
-        line: _value(table, line, one, si) for line in table.head if (one := pattern.match(line))
-    }
+        return value, "".join(f", not as {line!r} says" for line in lines)
+    found = {line: _value(table, line, one, si) for line, one in lines.items()}
     if len(set(found.values())) > 1:
         raise table.refusal(f"one {_words(what)}, or which: {what}=", "; ".join(found))
     line = next(iter(found), "")

@@ -17,14 +17,19 @@ The angle is taken as measured. The flex sensor's noise passes into S as g times
 the filter's covariance does not know of: smooth the angle first if that is much.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from filterpy.kalman import KalmanFilter
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats, check_positive, floats, one_number
 from softgrip.checks import check_finite, check_not_negative, takes_numbers
+
+if TYPE_CHECKING:
+    from filterpy.kalman import KalmanFilter
 
 
 @dataclass(frozen=True)
@@ -131,6 +136,9 @@ def elastance_filter(model: ElastanceModel) -> KalmanFilter:
     >>> kalman.x[:, 0].round(6).tolist()
     [200.0, 1000000000.0]
     """
+    # It brings SciPy's distributions and more along: only who filters waits for them.
+    from filterpy.kalman import KalmanFilter
+
     kalman = KalmanFilter(dim_x=2, dim_z=1, dim_u=1)
     prior, noise = model.prior, model.noise
     kalman.x = np.array([[prior.pressure], [prior.elastance]])

@@ -4,9 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import minimize
-from scipy.stats import norm
 
 from softgrip.arrays import Floats
 from softgrip.checks import takes_numbers
@@ -65,7 +64,7 @@ class NoiseEstimate:
         level, std = getattr(self.levels, name), self.log_std[NAMES.index(name)]
         if not np.isfinite(std):
             return 0.0, float("inf")
-        factor = float(np.exp(norm.ppf((1 + confidence) / 2) * std))
+        factor = float(np.exp(scipy.special.ndtri((1 + confidence) / 2) * std))
         return level / factor, level * factor
 
 
@@ -118,7 +117,7 @@ def estimate_noise(
     reach = float(np.log(SEARCH_FACTOR))
     bounds = [(-reach, reach)] * 3 + [(None, None)] * fit_gain
     # Steps of 1e-4: the likelihood is a sum of some hundred terms, rounded at 1e-12 or so.
-    found = minimize(
+    found = scipy.optimize.minimize(
         cost, np.zeros(len(bounds)), method="L-BFGS-B", bounds=bounds, options={"eps": 1e-4}
     )
     if not found.success or np.any(found.x[:3] >= 0.999 * reach):

@@ -5,12 +5,18 @@ and speed, and with nothing else but their product; so a smaller lead makes the 
 where Section 4.4 has it reduce the response time.
 """
 
-import control
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from softgrip.arrays import Value, check_positive
 from softgrip.errors import InvalidInputError
 from softgrip.pump.flow import Pump
+
+if TYPE_CHECKING:
+    import control
 
 
 def pressure_rate(flow: Value, capacity: Value) -> Value:
@@ -122,6 +128,8 @@ def pressure_system(pump: Pump, capacity: float) -> control.StateSpace:
     >>> float(system.B[0, 0].round(3))
     841.611
     """
+    import control
+
     check_positive(capacity=capacity)
     return control.ss(
         [[0.0]],

@@ -9,12 +9,18 @@ capacity goes on growing for ever, where the text has capacity proportional to t
 The print also measures x_k at k + 1, Eq. (4.9); we take the measurement of x_k at k.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
-from filterpy.kalman import KalmanFilter
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats, check_positive, floats
 from softgrip.checks import check_finite, check_not_negative, record, takes_numbers
+
+if TYPE_CHECKING:
+    from filterpy.kalman import KalmanFilter
 
 
 @takes_numbers
@@ -50,6 +56,9 @@ def printed_filter(
     check_finite(gain=gain, capacity=capacity, angle=angle)
     check_positive(capacity_std=capacity_std, angle_std=angle_std, sensor=sensor)
     check_not_negative(capacity_step=capacity_step, angle_step=angle_step)
+    # It brings SciPy's distributions and more along: only who filters waits for them.
+    from filterpy.kalman import KalmanFilter
+
     kalman = KalmanFilter(dim_x=2, dim_z=1)
     kalman.x = np.array([[capacity], [angle]])
     kalman.F = np.array([[1.0, gain], [0.0, 1.0]])

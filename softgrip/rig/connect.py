@@ -57,6 +57,8 @@ def connect(
     ...     rig.advance(10.0).time
     0.025
     """
+    # Read for any rig: that it cannot be read should not come out on the board.
+    lines = None if calibration is None else load(calibration)
     if where is not None and where.partition(":")[0] in ("simulated", "emulated"):
         if where.startswith("simulated:") and where.endswith(".csv"):
             return fitted_rig(where.removeprefix("simulated:"), seed=seed)
@@ -69,5 +71,4 @@ def connect(
         found = find_board()
         print(f"found {found}", file=sys.stderr)
         where = found.port
-    lines = None if calibration is None else load(calibration)
     return Board(where, fingers=fingers, period=period, calibration=lines, emulated=emulated)

@@ -9,7 +9,7 @@ is assumed, in `ForceLayer`, or fitted to the print: `fitted_rigs.fitted_layer`.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import lfilter
+import scipy
 
 from softgrip.arrays import Floats, Number
 from softgrip.simulator.sensors import Counts
@@ -74,7 +74,7 @@ def felt_force(force: Floats, period: float, layer: ForceLayer) -> Floats:
     felt = (1 - sum(layer.memory)) * force
     for part, lag in zip(layer.memory, layer.lag, strict=True):
         kept = float(np.exp(-period / lag))
-        felt = felt + part * lfilter([0.0, 1 - kept], [1.0, -kept], force)
+        felt = felt + part * scipy.signal.lfilter([0.0, 1 - kept], [1.0, -kept], force)
     return felt
 
 

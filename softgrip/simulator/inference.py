@@ -5,7 +5,7 @@ from dataclasses import replace
 from functools import lru_cache, partial
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from softgrip.arrays import Floats
 from softgrip.errors import InvalidInputError
@@ -148,7 +148,7 @@ def _least(
         progress(f"{name}, round {rounds_done}")
         return linear(at.tobytes())[1]
 
-    found = least_squares(
+    found = scipy.optimize.least_squares(
         lambda at: linear(at.tobytes())[0],
         np.clip(stages.get(name, point), -limit + 1e-9, limit - 1e-9),
         slopes,

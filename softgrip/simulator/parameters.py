@@ -13,6 +13,9 @@ from softgrip.errors import InvalidInputError
 from softgrip.pump.gas import ATMOSPHERE
 from softgrip.units import DEG, ML, MM, PSI, REV
 
+MOST_BITS = 52
+"""Of a converter: a floating-point number holds no finer counts. Those of rigs have 10 to 24."""
+
 
 @dataclass(frozen=True)
 class PumpParameters:
@@ -132,7 +135,7 @@ class SensorParameters:
         angle_noise: rad, root mean square.
         angle_lag: s (assumed).
         low_count, high_count: Counts at zero and at the end of the range.
-        bits: Of the converter.
+        bits: Of the converter, 1 to `MOST_BITS`.
     """
 
     pressure_range: Number = 80 * PSI
@@ -147,6 +150,8 @@ class SensorParameters:
 
     def __post_init__(self) -> None:
         check_fields(self, zero=("pressure_noise", "angle_noise", "low_count"))
+        if not np.all(np.asarray(self.bits) <= MOST_BITS):
+            raise InvalidInputError("bits", expected=f"1 to {MOST_BITS}", got=self.bits)
         rising = (self.low_count < self.high_count) & (self.high_count <= self.largest_count)
         if not np.all(rising):
             raise InvalidInputError(

@@ -14,6 +14,15 @@ CLOCKS = frozenset(
     | {"trial", "run", "event", "group", "session", "grasp"}
 )
 """Names of columns that count or tell the time."""
+OTHERS = frozenset(
+    {"force", "load", "weight", "mass", "pressure", "stress", "temperature", "temp", "humidity"}
+    | {"x", "y", "z", "position", "depth", "indentation", "displacement", "distance", "height"}
+    | {"angle", "speed", "velocity", "code", "class", "label", "kind", "object", "material"}
+    | {"repeat", "rep", "repetition", "diameter", "size"}
+)
+"""Names of columns that tell something else of a contact."""
+CODES = 20
+"""Whole numbers, so many or fewer in a column, are a code's: a converter has more."""
 RISING = 8
 """Rows from which on a column that never falls is no channel: one in 40 000 does so by chance."""
 EVEN = 0.7
@@ -52,6 +61,14 @@ def no_channel(name: str, values: Floats, ordered: bool) -> str | None:
         return f"it {way} by {abs(step):g} from row to row, as a clock does"
     if values.size >= RISING and not ordered and ((steps >= 0).all() or (steps <= 0).all()):
         return f"it {'never falls' if steps.max() > 0 else 'never rises'}, as a clock or a counter"
+    if (
+        values.size >= RISING
+        and (values == np.rint(values)).all()
+        and ((few := np.unique(values).size) <= CODES)
+    ):
+        return f"it has {few} whole numbers only, as a code has"
+    if plain in OTHERS:
+        return "its name is that of another quantity"
     return None
 
 

@@ -69,8 +69,12 @@ def _check_folds(labels: NDArray[Any], groups: ArrayLike | None, folds: int) -> 
     units = np.arange(labels.size) if groups is None else np.asarray(groups)
     counts = {str(kind): np.unique(units[labels == kind]).size for kind in np.unique(labels)}
     rarest = min(counts, key=lambda kind: counts[kind])
+    what = "contacts" if groups is None else "groups"
+    if counts[rarest] < 2:
+        raise InvalidInputError(
+            "labels", expected=f"two {what} or more of each kind", got=f"one of {rarest}"
+        )
     if not 2 <= folds <= counts[rarest]:
-        what = "contacts" if groups is None else "groups"
         raise InvalidInputError(
             "folds", expected=f"2 to {counts[rarest]}, the {what} of the kind {rarest}", got=folds
         )

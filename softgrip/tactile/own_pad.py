@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from softgrip.arrays import Floats, floats, read_only
-from softgrip.errors import DependentRowsWarning, InvalidInputError
+from softgrip.errors import DependentRowsWarning, InvalidInputError, LeftOutWarning
 from softgrip.quantities import convert
 from softgrip.tactile.channels import (
     near_equal,
@@ -28,6 +28,7 @@ from softgrip.tactile.channels import (
     no_channels,
     order_of_alike,
 )
+from softgrip.text_numbers import is_number
 from softgrip.text_table import TextTable, read_table
 
 Labels = NDArray[np.str_] | Floats
@@ -137,6 +138,7 @@ def read_readings(
             or group is empty, or a column that nobody named is no channel; names the line.
 
     Warns:
+        LeftOutWarning: If something of the file was not read.
         DependentRowsWarning: If rows are near-equal, or most like those beside them, and no group
             says what they are samples of.
     """
@@ -155,6 +157,8 @@ def read_readings(
     voltages = np.stack([_volts(table, k) for k in chosen], axis=1) if chosen else np.empty((0, 0))
     groups = None if by is None else np.array(_filled(table, by, "a group"))
     found = PadReadings(names, voltages, labels, groups)
+    for note in table.notes:
+        warnings.warn(f"{table.path}: {note}", LeftOutWarning, stacklevel=2)
     if group is None:
         _warn_of_dependence(table.path, found)
     return found
@@ -163,7 +167,13 @@ def read_readings(
 def _check_channels(table: TextTable, chosen: Sequence[int], labels: Labels) -> None:
     """Refuse columns that nobody named and that are no channels."""
     names = [table.names[k] for k in chosen]
-    found = no_channels({table.names[k]: table.numbers(k) for k in chosen}, labels)
+    words = {
+        table.names[k]: f"it holds words, such as {table.cells(k)[0]!r}"
+        for k in chosen
+        if not any(is_number(cell) for cell in table.cells(k))
+    }
+    numbers = {table.names[k]: table.numbers(k) for k in chosen if table.names[k] not in words}
+    found = words | no_channels(numbers, labels)
     if found:
         rest = tuple(name for name in names if name not in found)
         raise table.refusal(
@@ -209,6 +219,8 @@ def _volts(table: TextTable, at: int) -> Floats:
 def _labels(table: TextTable, at: int, unit: float | None) -> Labels:
     """Return kinds, or forces in N."""
     cells, own = _filled(table, at, "a label"), table.units[at]
+    if own == "1" and not all(map(is_number, cells)):
+        own = ""  # a row of units has a dash below what is no quantity
     if not own:
         return np.array(cells) if unit is None else unit * table.numbers(at)
     forces = _converted(table, at, table.numbers(at), own, "N")

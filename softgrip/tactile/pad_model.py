@@ -277,7 +277,9 @@ def load(path: Path | str) -> PadModel:
     same = (
         np.array_equal(found, answers)
         if found.dtype.kind == "U"
-        else found.shape == answers.shape and np.allclose(found, answers, rtol=SAME, atol=0)
+        else found.shape == answers.shape
+        and answers.dtype.kind in "if"
+        and np.allclose(found, answers, rtol=SAME, atol=0)
     )
     if not same:
         raise DataFileError(file, expected="the answers it was saved with", got="others")

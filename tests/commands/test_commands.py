@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from softgrip.commands.__main__ import COMMANDS, main
+from softgrip.commands.__main__ import COMMANDS, main, module
 from softgrip.logs.reader import kept_log
 from softgrip.rig import fit as rig_fit
 
@@ -20,7 +20,7 @@ GAUGE, AREA = 30e-3, 12e-6
 
 def example(name):
     """Return the commands of a command's example, without its name and line breaks."""
-    _, _, text = str(COMMANDS[name].__doc__).partition("Example::\n\n")
+    _, _, text = str(module(name).__doc__).partition("Example::\n\n")
     lines = text.replace("\\\n", " ").strip().splitlines()
     return [shlex.split(line)[1:] for line in lines]
 
@@ -58,6 +58,7 @@ def run(*words):
 
 
 def test_all_commands_have_an_example():
+    assert all(str(module(name).__doc__).startswith(about) for name, about in COMMANDS.items())
     assert all(example(name) for name in COMMANDS)
     assert all(words[0] == name for name in COMMANDS for words in example(name))
 

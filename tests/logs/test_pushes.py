@@ -5,7 +5,7 @@ import pytest
 
 from book.companion.claims import printed
 from softgrip.errors import DataFileError
-from softgrip.logs.pump import pump_of
+from softgrip.logs.pump import check_start, pump_of
 from softgrip.logs.pushes import compare, measure_noise, reference_noise
 from softgrip.logs.reader import read_log
 from softgrip.provenance import data_folder
@@ -62,3 +62,9 @@ def test_log_without_a_push_is_refused():
     words = r"a push from below 0\.03 to above 0\.1 MPa, got .* to 0\.0\d\d MPa"
     with pytest.raises(DataFileError, match=words):
         compare(data_folder() / "simulated" / "step-60-1.csv")
+
+
+def test_a_push_of_few_volumes_is_refused(tmp_path):
+    for swept in ([0.0] * 9 + [1e-6], [0.0, 1e-6] * 5, [*np.linspace(0, 1e-20, 9), 1.0]):
+        with pytest.raises(DataFileError, match="volumes"):
+            check_start(tmp_path, np.array(swept), np.zeros(10))

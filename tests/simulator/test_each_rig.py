@@ -5,8 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from softgrip.errors import InvalidInputError
 from softgrip.simulator.each_rig import felt
 from softgrip.simulator.free_parameters import free_parameters, parameter_values, with_values
+from softgrip.simulator.parameters import SensorParameters
 from softgrip.simulator.simulation import Simulation
 from tests.simulator.rigs import design_1, printed_gripper
 
@@ -57,3 +59,9 @@ def test_fast_and_damped_rigs_stay_finite():
     pressure, angle = felt([with_values(design_1(), fast)], COMMANDS, period=0.025)
     assert np.isfinite(pressure).all()
     assert np.abs(angle).max() < 3
+
+
+@pytest.mark.parametrize("bits", [0, 53, 1e12])
+def test_a_converter_that_no_number_holds_is_refused(bits):
+    with pytest.raises(InvalidInputError, match="bits"):
+        SensorParameters(bits=bits)

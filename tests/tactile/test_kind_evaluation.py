@@ -106,5 +106,5 @@ def test_no_press_is_on_both_sides_of_a_split():
     train, test = kind_evaluation.train_and_test(kinds, seed=0, groups=presses)
     assert not set(presses[train]) & set(presses[test])
     assert len(test) == pytest.approx(0.2 * len(kinds), rel=0.1)
-    with pytest.raises(InvalidInputError, match="the groups of the kind"):
+    with pytest.raises(InvalidInputError, match="two groups or more of each kind"):
         kind_evaluation.train_and_test(kinds[:9], seed=0, groups=presses[:9])

@@ -143,6 +143,17 @@ def test_changed_file_is_found_out(change, message, tmp_path):
         load(path)
 
 
+@pytest.mark.parametrize("answer", [{}, 10**400, "0.5", None])
+def test_an_answer_that_is_no_force_is_found_out(answer, tmp_path):
+    path, volts = tmp_path / "mine.json", np.linspace(0.1, 3, 40)[:, None]
+    save(PadModel(ForceSettings()).fit(PadReadings(("layer",), volts, volts[:, 0] / 3)), path)
+    record = json.loads(path.read_text())
+    record["answers"][3] = answer
+    path.write_text(json.dumps(record))
+    with pytest.raises(DataFileError, match=r"saved with|can be fitted"):
+        load(path)
+
+
 @pytest.mark.parametrize("text", ["", "[]", "{}", "e1,e2\n"])
 def test_file_that_is_no_model_is_refused(text, tmp_path):
     path = tmp_path / "mine.json"
