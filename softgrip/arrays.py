@@ -21,6 +21,21 @@ def is_symbol(value: object) -> bool:
     return type(value).__module__.startswith("casadi")
 
 
+def chosen(condition: Number, one: Number, other: Number) -> Number:
+    """Return one where a condition holds, else the other: `numpy.where`, for symbols too.
+
+    >>> chosen(np.array([0.0, 1.0]) > 0, 3.0, 4.0).tolist()
+    [4.0, 3.0]
+    """
+    if is_symbol(condition):
+        from casadi import if_else
+
+        return if_else(condition, one, other)
+    if isinstance(condition, bool | np.bool | float):
+        return one if condition else other  # many times as fast
+    return np.where(condition, one, other)
+
+
 LARGEST_STRAIN = 20.0
 """Of a rubber: 2,000 %."""
 ROUNDING = 1e-6

@@ -3,6 +3,7 @@
 from textwrap import wrap
 from typing import Any
 
+import control
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
@@ -10,8 +11,11 @@ from matplotlib.figure import Figure
 from book.chapter_3.finger_drawing import draw_section
 from book.chapter_3.regulators import designed_on
 from book.chapter_4.identified_model import IdentifiedModel, identified_model
-from book.companion.style import BLUE, GREY, LINEAR, ORANGE, PRINTED, SKY, WIDTH, still, style
-from book.explore.plot import Level, Line, Outline, Panel, Plot
+from book.companion.style import BLUE, GREY, LINEAR, ORANGE, PRINTED, SKY, WIDTH, style
+from book.explore.plot import Band, Level, Line, Outline, Panel, Plot
+from book.explore.scan import Numbers, scan
+from book.explore.settled import entered
+from book.explore.small_matrices import times
 from softgrip.actuator.bending import Finger, bending_angle, free_bending
 from softgrip.actuator.design import (
     SCRIPT_MASS,
@@ -24,10 +28,12 @@ from softgrip.actuator.frequency import natural_frequency
 from softgrip.actuator.optimize import optimal_design
 from softgrip.actuator.section import Section, torque
 from softgrip.arrays import Number
-from softgrip.control.limited_lqr import limited_loop
 from softgrip.control.loop import SPEED_LIMIT
-from softgrip.control.lqr import Weights, lqr_gain
-from softgrip.control.step_metrics import settling_time
+from softgrip.control.lqr import derivatives_from_full_state, input_gain
+from softgrip.control.pid import PERIOD
+from softgrip.control.spectral_factor import spectral_gain
+from softgrip.control.state_feedback import fed_back
+from softgrip.dynamics.second_order import full_state_space
 from softgrip.reads import remembered
 from softgrip.units import DEG, MM, MPa
 
@@ -141,16 +147,19 @@ def _refused(message: str) -> Figure:
 
 
 DURATION = 4.0
+BAND = 0.05
+"""Of the step, within which it is settled."""
 
 
 @remembered
 def _model() -> IdentifiedModel:
-    # To identify it takes as long as all else that a frame may take.
     return identified_model()
 
 
-def draw_lqr(p: float, q2: float, step: float) -> Figure:
-    """Draw a step of the regulator on the printed model, with the motor's limit.
+def lqr(p: Number, q2: Number, step: Number) -> dict[str, Any]:
+    """Return a step of the regulator on the printed model, with the motor's limit.
+
+    It is `limited_loop` a sample at a time, but for the rounding of the command to 1e-6 rad/s.
 
     Args:
         p, q2: Of Eq. (3.29); q_1 = 1, q_3 = 0 and R = 1.
@@ -158,19 +167,46 @@ def draw_lqr(p: float, q2: float, step: float) -> Figure:
     """
     model = _model()
     finger, _ = designed_on("printed", model)
-    gain = lqr_gain(finger, Weights(p=p, q=(1.0, q2, 0.0)))
-    found = limited_loop(finger, model.pump_gain, gain, step * DEG, duration=DURATION)
-    settled = float(settling_time(found.time, found.measured, final=step * DEG, band=0.05))
-    share = found.command / SPEED_LIMIT
-    with style():
-        drawn, axes = still(3.0)
-        axes.axhspan(0.95, 1.05, color=PRINTED, alpha=0.2, lw=0)
-        axes.plot(found.time, found.measured / (step * DEG), color=LINEAR, label="angle / step")
-        axes.step(found.time, share, color=GREY, ls="--", lw=1, where="post", label="command u")
-        axes.axvline(0.8, color=PRINTED, ls=":", lw=1)
-        within = settled < DURATION
-        words = f"within 5 % after {settled:.2f} s" if within else "not within 5 % in 4 s"
-        axes.set(xlabel="time (s)", ylabel="share", xlim=(0, DURATION), ylim=(-1.1, 1.4))
-        axes.set_title(words)
-        axes.legend(loc="lower right")
-    return drawn
+    w, z = finger.natural_frequency, finger.damping_ratio
+    scale = SPEED_LIMIT / input_gain(finger, model.pump_gain, SPEED_LIMIT)
+    gain = [scale * k for k in spectral_gain(2 * z * w, w**2, p, (1.0, q2, 0.0))]
+    held = control.sample_system(full_state_space(finger, model.pump_gain), PERIOD, "zoh")
+    moves, derivatives = np.hstack([held.A, held.B]), derivatives_from_full_state(finger)
+
+    def sample(state: Numbers, row: Numbers, given: Numbers) -> tuple[Numbers, Numbers]:
+        *plant, before, settled = state
+        (time,), (*gain, final) = row, given
+        angle, rate, acceleration = times(derivatives, plant)
+        speed = fed_back(gain, final - angle, rate, acceleration)
+        speed = np.minimum(np.maximum(speed, -SPEED_LIMIT), SPEED_LIMIT)
+        excess = np.abs(angle / final - 1) - BAND
+        settled = entered(time, PERIOD, before, excess, settled)
+        out = angle / final, speed / SPEED_LIMIT, settled, excess
+        return (*times(moves, plant, [speed]), excess, settled), out
+
+    time = PERIOD * np.arange(round(DURATION / PERIOD) + 1)
+    angle, share, settled, excess = scan(sample, [0.0] * 5, time, (*gain, step * DEG))
+    return {
+        "time": time,
+        "angle": angle,
+        "command": share,
+        "settled": settled[-1],
+        "late": 1.0 * (excess[-1] > 0),
+    }
+
+
+LQR_PLOT = Plot(
+    [
+        Panel(
+            [
+                Band([1 - BAND], [1 + BAND], label="within 5 %", colour=PRINTED),
+                Level(0.8, "x", "printed settling time", colour=PRINTED),
+                Line("time", "command", "command u", colour=GREY, dash="6 3", step=True),
+                Line("time", "angle", "angle / step", colour=LINEAR),
+            ],
+            x=(0, DURATION), y=(-1.1, 1.4), x_label="time (s)", y_label="share",
+        )
+    ],
+    title="within 5 % after {settled:.2f} s",
+    cases=[("late", "not within 5 % in 4 s")],
+)  # fmt: skip

@@ -7,7 +7,7 @@ import numpy as np
 from book.chapter_5.figures_materials import measured_curve
 from book.companion.style import LUDWICK, MEASURED, OTHER
 from book.explore.plot import Dots, Level, Line, Panel, Plot, Span
-from softgrip.arrays import Number
+from softgrip.arrays import Number, check_positive
 from softgrip.materials import ludwick, yeoh
 from softgrip.materials.facts import facts
 from softgrip.materials.least_squares import LinearFit, linear_fit
@@ -30,6 +30,7 @@ def new_material(E: Number, MV: Number, TS: Number) -> dict[str, Number]:
         E, TS: Young's modulus (100 % modulus) and tensile strength, MPa.
         MV: Mixed viscosity, Pa s.
     """
+    check_positive(young_modulus=E, mixed_viscosity=MV, tensile_strength=TS)
     given = zip((E * MPa, MV, TS * MPa), SCALES, EXPONENTS, strict=True)
     value, half = _fit().response([(v / scale) ** power for v, scale, power in given], 0.95)
     known = properties(table_5_1().values())

@@ -62,7 +62,7 @@ def javascript(function: ca.Function) -> str:
 
     >>> x = ca.SX.sym("x")
     >>> javascript(ca.Function("f", [x], [2 * x + 1]))
-    '(()=>{const w=new Float64Array(2);return(a,r)=>{r[0][0]=(1+(2*a[0][0]));}})()'
+    '(()=>{const w=new Float64Array(2);return(a,r)=>{w[0]=((2*a[0][0])+1);r[0][0]=w[0];}})()'
     """
     flat = function.expand()
     steps = [
@@ -113,8 +113,11 @@ def _uses(steps: Steps) -> list[tuple[int, bool]]:
                 made = born[place]
                 count[made] += 1
                 doubled[made] |= code in TWICE
-                # What it reads, directly or through what may be nested in it.
-                reads[k] |= reads[made] | {(place, made)}
+                # What it reads, directly or through what may be nested in it. A number or an
+                # argument is no place that could be written anew.
+                reads[k] |= reads[made]
+                if steps[made][0] not in (ca.OP_CONST, ca.OP_INPUT):
+                    reads[k].add((place, made))
                 if any(born[p] != m for p, m in reads[made]):
                     doubled[made] = True
         if code != ca.OP_OUTPUT:

@@ -123,17 +123,3 @@ def scan(step: Step, start: Numbers, rows: ArrayLike, given: Numbers = ()) -> li
 def total(values: Any) -> Number:
     """Return the sum of numbers or symbols, shape (N,)."""
     return ca.sum1(values) if is_symbol(values) else np.sum(values, axis=0)
-
-
-def last_outside(outside: Any, time: Floats) -> Number:
-    """Return the first time after which nothing is outside; the last one if the end itself is.
-
-    Args:
-        outside: 0 or 1 at each time, numbers or symbols, shape (N,).
-        time: s, shape (N,).
-    """
-    found: Number = time[0]
-    for k in range(len(time)):
-        after = time[min(k + 1, len(time) - 1)]
-        found = found + outside[k] * (after - found)
-    return found

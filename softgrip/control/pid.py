@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, final, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, Number, check_positive, floats
+from softgrip.arrays import Floats, Number, check_positive, chosen, floats
 from softgrip.checks import check_finite, samples, takes_numbers
 from softgrip.errors import InvalidInputError
 
@@ -122,18 +122,47 @@ class PID:
         else:
             signal, before = -measured, -measured
         change = signal - (before if self._last is None else self._last)
-        g, h = self.gains, self.period
-        self._derivative = (g.derivative_filter * self._derivative + g.kd * change) / (
-            g.derivative_filter + h
-        )
         self._last = signal
-        step = g.ki * h * error
-        free = g.kp * error + self._integral + step + self._derivative
-        command = np.minimum(np.maximum(free, self.limits[0]), self.limits[1])
-        if self.anti_windup:
-            step = np.where((free - command) * step > 0, 0.0, step)
-        self._integral = self._integral + step
+        command, self._integral, self._derivative = pid_step(
+            self.gains,
+            self.limits,
+            error,
+            change,
+            self._integral,
+            self._derivative,
+            period=self.period,
+            anti_windup=self.anti_windup,
+        )
         return np.asarray(command)
+
+
+def pid_step(
+    gains: Gains,
+    limits: tuple[float, float],
+    error: Number,
+    change: Number,
+    integral: Number,
+    derivative: Number,
+    *,
+    period: float = PERIOD,
+    anti_windup: bool = True,
+) -> tuple[Number, Number, Number]:
+    """Return command, integral and derivative of one update: the law of `PID`, for symbols too.
+
+    Args:
+        gains, limits, period, anti_windup: As of `PID`.
+        error: rad.
+        change: Since the update before, of what is differentiated, rad.
+        integral, derivative: Their parts of the command after the update before.
+    """
+    tau = gains.derivative_filter
+    derivative = (tau * derivative + gains.kd * change) / (tau + period)
+    step = gains.ki * period * error
+    free = gains.kp * error + integral + step + derivative
+    command = np.minimum(np.maximum(free, limits[0]), limits[1])
+    if anti_windup:
+        step = chosen((free - command) * step > 0, 0.0, step)
+    return command, integral + step, derivative
 
 
 def pid_state_space(gains: Gains) -> control.StateSpace:

@@ -1,5 +1,6 @@
 """The sampled regulators: Eq. (3.30) as a motor speed, by a differentiator or by an observer."""
 
+from collections.abc import Sequence
 from typing import final
 
 import control
@@ -71,10 +72,15 @@ class StateFeedback:
         """
         wanted, measured = samples(reference=reference, measurement=measurement)
         angle, rate, acceleration = self.differentiator.update(measured)
-        K = self.speed_gain
-        error = wanted - angle
-        free = K[0] * error - K[1] * rate - K[2] * acceleration
+        free = fed_back(self.speed_gain, wanted - angle, rate, acceleration)
         return np.asarray(np.round(free, SPEED_DIGITS))
+
+
+def fed_back(
+    gain: Floats | Sequence[Number], error: Number, rate: Number, acceleration: Number
+) -> Number:
+    """Return ``K (x_reference - x)`` for a reference at rest, Eq. (3.30), for symbols too."""
+    return gain[0] * error - gain[1] * rate - gain[2] * acceleration
 
 
 @final

@@ -4,14 +4,15 @@ from io import BytesIO
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 from book.chapter_2 import figures_element as figures
-from book.chapter_2.sliders import draw_element, outlines
+from book.chapter_2 import sliders
 from softgrip.tactile.element import SHAPES, Element, shortening
 from softgrip.tactile.element_fem import solve
 from softgrip.tactile.element_results import finest
 from softgrip.tactile.element_table import ASSUMED
+from softgrip.units import MM
+from tests.book.explore.page_laws import title
 
 
 def test_pictures_are_within_one_per_cent_of_the_finest_mesh():
@@ -58,17 +59,24 @@ def test_table_2_b_has_a_row_for_each_cut():
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_outline_sinks_by_the_shortening_and_keeps_its_volume_at_small_loads(shape):
-    element = Element(shape, cut=1.0 if shape == "cylinder" else 0.3)
-    before, after = outlines(element, 1e-4)
-    sunk = before[1, -1] - after[1, -1]
+    made, found = (
+        Element(shape, cut=1.0 if shape == "cylinder" else 0.3),
+        sliders.element(shape, 1e-4, 0.3),
+    )
+    before, after = found["height"], found["height_under"]
+    sunk = (before[-1] - after[-1]) * MM
     # Trapezoids on 401 slices.
-    assert sunk == pytest.approx(shortening(element, 1e-4), rel=1e-3)
-    volumes = [np.trapezoid(half**2, height) for half, height in (before, after)]
+    assert sunk == pytest.approx(shortening(made, 1e-4), rel=1e-3)
+    assert found["moved"] * MM == pytest.approx(shortening(made, 1e-4), rel=1e-12)
+    halves = found["half_width"], found["half_width_under"]
+    volumes = [np.trapezoid(w**2, h) for w, h in zip(halves, (before, after), strict=True)]
     # nu = 0.49 leaves 2 % of the shortening as a change of volume.
-    strain = sunk / element.height
+    strain = sunk / made.height
     assert 1 - volumes[1] / volumes[0] < 0.1 * strain
 
 
-def test_explorer_draws_every_shape():
+def test_explorer_shows_every_shape():
     for shape in SHAPES:
-        assert isinstance(draw_element(shape, load=0.1, cut=0.1), Figure)
+        found = sliders.element(shape, load=0.1, cut=0.1)
+        assert all(np.isfinite(values).all() for values in found.values())
+        assert title(sliders.ELEMENT_PLOT, found).startswith("shorter by ")

@@ -6,12 +6,13 @@ import pytest
 from book.chapter_2 import figures_force as chapter_2_force
 from book.chapter_2.figures_force import figure_2_9, figure_2_h
 from book.chapter_2.forces import weight_bandwidth, weight_points
-from book.chapter_2.sliders import draw_bandwidth
+from book.chapter_2.sliders import bandwidth, bandwidth_plot
 from book.companion.exhibit import EXHIBITS
 from book.companion.save import make, numbers
 from softgrip.provenance import Provenance
 from softgrip.tactile.nadaraya_watson import NadarayaWatson
 from softgrip.units import GRAM_FORCE
+from tests.book.explore.page_laws import title
 
 OURS = [item for item in EXHIBITS.values() if item.make.__module__ == chapter_2_force.__name__]
 
@@ -53,7 +54,7 @@ def test_best_of_figure_2_h_is_the_lowest_point_of_its_curve():
 
 
 def test_slider_says_the_error_of_what_is_left_out():
-    narrow, wide = (draw_bandwidth(b).axes[0].get_title(loc="left") for b in (0.01, 1.0))
+    narrow, wide = (title(bandwidth_plot(), bandwidth(sigma)) for sigma in (0.01, 1.0))
     assert narrow != wide
     assert "points" in narrow
     assert "weights" in narrow

@@ -1,7 +1,7 @@
 """What the sliders and tables of the regulator say."""
 
+import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 from book.chapter_3.figures_control import (
     PRINTED_TIME,
@@ -10,18 +10,21 @@ from book.chapter_3.figures_control import (
     table_3_c,
     table_3_d,
 )
-from book.chapter_3.sliders import draw_lqr
+from book.chapter_3.sliders import LQR_PLOT, lqr
+from tests.book.explore.page_laws import title
 
 
 @pytest.mark.parametrize("step", [10, 90])
-def test_sliders_draw_at_their_ends(step):
+def test_law_holds_beyond_the_sliders_ends(step):
     for p, q2 in ((1, 0.0), (1e5, 1.0)):
-        assert isinstance(draw_lqr(p, q2, step), Figure)
+        found = lqr(p, q2, step)
+        assert all(np.isfinite(values).all() for values in found.values())
+        assert np.abs(found["command"]).max() <= 1
 
 
 def test_title_tells_the_settling_time():
-    assert draw_lqr(100, 0.3, 60).axes[0].get_title(loc="left") == "within 5 % after 3.34 s"
-    assert draw_lqr(1, 0.3, 60).axes[0].get_title(loc="left") == "not within 5 % in 4 s"
+    assert title(LQR_PLOT, lqr(100, 0.3, 60)) == "within 5 % after 3.34 s"
+    assert title(LQR_PLOT, lqr(1, 0.3, 60)) == "not within 5 % in 4 s"
 
 
 def test_a_smaller_weight_on_the_rate_alone_passes_under_the_printed_time():

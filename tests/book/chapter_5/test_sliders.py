@@ -1,33 +1,42 @@
-"""The widgets of Chapter 5 draw what they say, and what their sliders name."""
+"""The laws of Chapter 5 are what they say, and what their sliders name."""
 
+import numpy as np
 import pytest
 
-from book.chapter_5.sliders import draw_law, draw_new_material
-from book.companion.save import numbers
-from book.explore.frames import render
+from book.chapter_5.sliders import ludwick_law, ludwick_plot, new_material, new_material_plot
+from book.explore import Range, Slider, explore
 from softgrip.errors import InvalidInputError
 from softgrip.materials.powerlaw import predict_power
+from tests.book.explore.page_laws import title
 
 
-def test_frames_are_drawn_without_a_warning_and_keep_their_place():
-    first = draw_law("Dragon Skin 20", 1.4).axes[0].get_position().bounds
-    second = draw_law("Ecoflex 00-10", 2.6).axes[0].get_position().bounds
-    assert first == second
-    assert render(draw_law, {"material": "Dragon Skin 20", "n": 2.0}).width == 576
+def test_law_is_shown_without_a_warning_and_keeps_its_place():
+    """Axes end where the material does; the room around them does not depend on it."""
+    materials = ["Dragon Skin 20", "Ecoflex 00-10"]
+    shown = explore(
+        ludwick_law, ludwick_plot(), mode="static", alt="x",
+        material=Slider(materials, "Material"), n=Range(1, 3, 2, "n"),
+    )  # fmt: skip
+    assert set(shown.laws) == set(materials)
+    (panel,) = shown.plot.panels
+    for material, n in zip(materials, (1.4, 2.6), strict=True):
+        found = ludwick_law(material, n)
+        ends = [found[end] for axis in (panel.x, panel.y) for end in axis if isinstance(end, str)]
+        assert len(ends) == 2
+        assert min(ends) > 0
 
 
 def test_law_is_drawn_with_the_chosen_power():
-    frame = numbers(draw_law("Dragon Skin 20", 1.5))
-    law = frame[frame["series"] == "Ludwick, n = 1.50"]
+    law = ludwick_law("Dragon Skin 20", 1.5)
     # At strain 4 the stress is E 4**1.5 = 8 E.
-    close = law.iloc[(law["x"] - 4).abs().argmin()]
-    assert close["y"] == pytest.approx(0.34 * close["x"] ** 1.5, rel=1e-12)
+    close = np.abs(law["strain"] - 4).argmin()
+    assert law["Ludwick"][close] == pytest.approx(0.34 * law["strain"][close] ** 1.5, rel=1e-12)
 
 
 def test_title_says_the_prediction_and_where_it_extrapolates():
     power = predict_power(0.3e6, 15.0, 2.5e6).power
-    title = draw_new_material(0.3, 15.0, 2.5).axes[0].get_title(loc="left")
-    assert title == f"n = {power.value:.2f}, 95 %: {power.low:.2f} to {power.high:.2f}"
-    assert "extrapolated" in draw_new_material(3.0, 15.0, 2.5).axes[0].get_title(loc="left")
+    told = title(new_material_plot(), new_material(0.3, 15.0, 2.5))
+    assert told == f"n = {power.value:.2f}, 95 %: {power.low:.2f} to {power.high:.2f}"
+    assert "extrapolated" in title(new_material_plot(), new_material(3.0, 15.0, 2.5))
     with pytest.raises(InvalidInputError, match="young_modulus"):
-        draw_new_material(-0.3, 15.0, 2.5)
+        new_material(-0.3, 15.0, 2.5)

@@ -3,6 +3,7 @@
 import base64
 import html
 import io
+import json
 import re
 from itertools import product
 
@@ -15,8 +16,9 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from PIL import Image
 
-from book.companion import Slider, explore, slider
+from book.explore import Slider, explore, slider
 from book.explore.frames import MAX_FRAMES, PAGE, Budget, Frame, render
+from book.explore.page import Explorer
 from softgrip.errors import InvalidInputError
 
 NAMES = ("a", "b", "c")
@@ -55,25 +57,30 @@ def controls(widget):
     return list(widget.children[0].children)
 
 
-def is_static(widget):
-    return isinstance(widget.children[-1], widgets.Stack)
+def is_static(shown):
+    return isinstance(shown, Explorer)
 
 
-def leaf(node, indices):
-    for index in indices:
-        node = node.children[index]
-    return node
+def frame_at(shown, places):
+    """Return the frame that the page's script shows: the last slider moves fastest."""
+    index = 0
+    for place, item in zip(places, shown.sliders.values(), strict=True):
+        index = index * len(item.values) + place
+    return shown.frames[index]
 
 
-def shown(node):
-    """Return what a reader sees: the selected child of each stack, down to the picture."""
-    while isinstance(node, widgets.Stack):
-        node = node.children[node.selected_index]
-    return node
+def page(shown):
+    return shown._repr_html_()
 
 
-def webp(node):
-    return base64.b64decode(re.search(r'base64,([^"]+)"', node.value)[1])
+def told(shown):
+    """Return what the page's script is told."""
+    return json.loads(re.search(r"Object\.assign\((.*),\{laws:", page(shown))[1])
+
+
+def webp(picture):
+    source = picture if isinstance(picture, str) else picture.value
+    return base64.b64decode(re.search(r'base64,([^"]+)', source)[1])
 
 
 def alt(node):
@@ -104,40 +111,36 @@ def test_mode_is_that_of_the_environment_unless_given(monkeypatch, variable, mod
 
 @settings(max_examples=12)
 @given(st.lists(st.integers(2, 3), min_size=1, max_size=3), st.randoms(use_true_random=False))
-def test_every_combination_of_indices_leads_to_its_frame(counts, random):
+def test_every_combination_of_places_leads_to_its_frame(counts, random):
     sliders = {}
     for i, (name, count) in enumerate(zip(NAMES, counts, strict=False)):
         values = [10 * i + j for j in range(count)]
         sliders[name] = Slider(values, name, default=random.choice(values))
-    widget = explore(draw, mode="static", **sliders)
-    top = widget.children[-1]
-    for indices in product(*map(range, counts)):
-        values = {n: s.values[i] for (n, s), i in zip(sliders.items(), indices, strict=True)}
-        assert webp(leaf(top, indices)) == render(draw, values).webp
-    first = {name: item.default for name, item in sliders.items()}
-    assert webp(shown(top)) == render(draw, first).webp
-    assert [control.value for control in controls(widget)] == list(first.values())
+    shown = explore(draw, mode="static", **sliders)
+    for places in product(*map(range, counts)):
+        values = {n: s.values[i] for (n, s), i in zip(sliders.items(), places, strict=True)}
+        assert webp(frame_at(shown, places)) == render(draw, values).webp
+    data = told(shown)
+    assert data["frames"] == list(shown.frames)
+    first = [s["values"][s["start"]] for s in data["sliders"]]
+    assert first == [item.default for item in sliders.values()]
 
 
 @pytest.mark.parametrize("counts", [(3,), (2, 3), (2, 3, 4)])
-def test_each_slider_is_linked_to_all_stacks_of_its_level(monkeypatch, counts):
-    links = []
-    monkeypatch.setattr(widgets, "jslink", lambda source, target: links.append((source, target)))
+def test_each_place_has_a_frame_and_each_slider_a_control(counts):
     sliders = {n: list(range(k)) for n, k in zip(NAMES, counts, strict=False)}
-    widget = explore(draw, mode="static", **sliders)
-    level = [widget.children[-1]]
-    for control in controls(widget):
-        targets = [target for source, target in links if source == (control, "index")]
-        assert all(name == "selected_index" for _, name in targets)
-        assert {id(stack) for stack, _ in targets} == {id(stack) for stack in level}
-        assert len(targets) == len(level)
-        level = [child for stack in level for child in stack.children]
-    assert len(links) == sum(np.cumprod([1, *counts[:-1]]))
+    shown = explore(draw, mode="static", **sliders)
+    assert len(shown.frames) == np.prod(counts)
+    ends = re.findall(
+        r'type="range" id="explore-draw-(\w)" name="\1" min="0" max="(\d)"', page(shown)
+    )
+    assert ends == [(n, str(k - 1)) for n, k in zip(NAMES, counts, strict=False)]
 
 
 def test_a_static_explorer_without_a_default_starts_at_the_first_values():
-    widget = explore(draw, mode="static", a=["x", "y"], b=[1, 2])
-    assert webp(shown(widget.children[-1])) == render(draw, {"a": "x", "b": 1}).webp
+    shown = explore(draw, mode="static", a=["x", "y"], b=[1, 2])
+    assert [s["start"] for s in told(shown)["sliders"]] == [0, 0]
+    assert webp(frame_at(shown, (0, 0))) == render(draw, {"a": "x", "b": 1}).webp
 
 
 def test_too_many_frames_are_refused_before_any_is_drawn():
@@ -220,15 +223,28 @@ def test_an_error_in_the_first_picture_is_raised_with_its_parameters(mode):
 # What the reader is told
 
 
-@pytest.mark.parametrize("mode", ["live", "static"])
-def test_labels_units_and_alt_text(mode):
+def test_labels_units_and_alt_text_of_a_live_one():
     pressure = slider(0, 60, 4, label="Pressure <p>", unit="kPa", default=20)
-    widget = explore(draw, mode=mode, alt='A "curve"', a=pressure, b=["linear", "Ludwick"])
+    widget = explore(draw, mode="live", alt='A "curve"', a=pressure, b=["linear", "Ludwick"])
     first, second = controls(widget)
     assert (first.description, second.description) == ("Pressure <p>", "b")
     assert (first.label, second.label) == ("20 kPa", "linear")
-    picture = shown(widget.children[-1])
-    assert alt(picture) == 'A "curve"; Pressure <p> 20 kPa; b linear'
+    assert alt(widget.children[-1]) == 'A "curve"; Pressure <p> 20 kPa; b linear'
+
+
+def test_labels_units_and_alt_text_of_a_static_one():
+    pressure = slider(0, 60, 4, label="Pressure <p>", unit="kPa", default=20)
+    shown = explore(draw, mode="static", alt='A "curve" </script>', a=pressure, b=["x", "y"])
+    labels = re.findall(r'<label for="explore-draw-\w">(.*?)</label>', page(shown))
+    assert labels == ["Pressure &lt;p&gt;", "b"]
+    assert page(shown).count("</script>") == 1
+    data = told(shown)
+    assert data["alt"] == 'A "curve" </script>'
+    assert [(s["label"], s["unit"]) for s in data["sliders"]] == [
+        ("Pressure <p>", "kPa"),
+        ("b", ""),
+    ]
+    assert data["sliders"][0]["values"][data["sliders"][0]["start"]] == 20
 
 
 # Frames
@@ -308,11 +324,11 @@ def positional_only(a, /):
 @pytest.mark.parametrize(
     ("function", "names", "message"),
     [
-        (draw, "", "one to three sliders"),
-        (draw, "abcd", "one to three sliders"),
-        (needs_two, "a", r"draw\(a, b\): missing a required argument: 'b'"),
+        (draw, "", "one to 4 sliders"),
+        (draw, "abcde", "one to 4 sliders"),
+        (needs_two, "a", r"needs_two\(a, b\): missing a required argument: 'b'"),
         (needs_two, "abc", "unexpected keyword argument 'c'"),
-        (positional_only, "a", "sliders that fit draw"),
+        (positional_only, "a", "sliders that fit positional_only"),
     ],
 )
 @pytest.mark.parametrize("mode", ["live", "static"])
