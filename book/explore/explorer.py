@@ -8,7 +8,7 @@ from itertools import product
 from typing import Any, Literal
 
 from book.explore.frames import PAGE, check_count, render
-from book.explore.law import translated
+from book.explore.law import recorded
 from book.explore.page import Explorer
 from book.explore.plot import Plot
 from book.explore.sliders import Range, Slider, Value
@@ -49,9 +49,9 @@ def _laws(law: Callable[..., Any], sliders: Mapping[str, Slider | Range]) -> dic
     words = {n: s.values for n, s in sliders.items() if isinstance(s, Slider) and s.words}
     numbers = [name for name in sliders if name not in words]
     return {
-        "|".join(map(str, chosen)): translated(
+        "|".join(map(str, chosen)): recorded(
             law, numbers, **dict(zip(words, map(str, chosen), strict=True))
-        )
+        ).javascript()
         for chosen in product(*words.values())
     }
 

@@ -34,8 +34,6 @@ class Visit:
         self.page.on("requestfailed", lambda request: self._complain(f"missing: {request.url}"))
         self.page.goto(file.as_uri())
         self.page.evaluate("window.MathJax ? MathJax.startup.promise.then(() => null) : null")
-        if "widget-view+json" in file.read_text():
-            self.page.wait_for_selector(".widget-html-content img")
         self.page.wait_for_timeout(200)  # for what loads behind: fonts, the theme's own scripts
 
     def _console(self, message):
@@ -65,11 +63,6 @@ def opened(html: Path) -> list[Path]:
     """
     sources = [file for file in pages(html) if "_modules" in file.parts]
     return [file for file in pages(html) if file not in sources] + sources[::20]
-
-
-def chapters(html: Path) -> list[Path]:
-    """Return the pages that have sliders."""
-    return [file for file in html.glob("*.html") if "widget-view+json" in file.read_text()]
 
 
 @dataclass(frozen=True)
@@ -122,41 +115,6 @@ def test_equations_are_typeset(seen):
         assert page.typeset >= page.equations, file
         assert page.misread == 0, file
     assert sum(page.equations for page in seen.values()) > 10
-
-
-@pytest.mark.browser
-@pytest.mark.usefixtures("local_scripts")
-def test_every_slider_moves_its_picture(html, browser):
-    moved = 0
-    for file in chapters(html):
-        with Visit(browser, file) as visit:
-            page = visit.page
-            for box in page.locator(".cell_output:has(.widget-hslider)").all():
-                for handle in box.locator(".noUi-handle").all():
-                    before = picture(box)
-                    handle.focus()
-                    last = handle.get_attribute("aria-valuenow") == handle.get_attribute(
-                        "aria-valuemax"
-                    )
-                    page.keyboard.press("ArrowLeft" if last else "ArrowRight")
-                    for _ in range(300):  # it takes one frame, or on a busy machine longer
-                        if picture(box) != before:
-                            break
-                        page.wait_for_timeout(20)
-                    assert picture(box) != before, (file, handle.get_attribute("aria-label"))
-                    assert handle.get_attribute("aria-label")
-                    moved += 1
-    assert moved >= 5
-
-
-def picture(box) -> str:
-    """Return what the one visible picture of an explorer shows."""
-    # Asked at once, for the pictures change places meanwhile.
-    visible = box.locator("img").evaluate_all(
-        "all => all.filter(one => one.checkVisibility()).map(one => one.src)"
-    )
-    assert len(visible) == 1
-    return visible[0]
 
 
 @pytest.mark.browser

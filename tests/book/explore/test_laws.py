@@ -25,7 +25,7 @@ from book.chapter_5.figures_materials import measured_curve
 from book.chapter_6.sliders import as_far_apart, swing
 from book.companion.choices import choice
 from book.explore import explore
-from book.explore.law import translated
+from book.explore.law import recorded
 from softgrip.actuator.bending import Finger, free_bending
 from softgrip.actuator.design import SCRIPT_MASS, SCRIPT_POWER
 from softgrip.actuator.frequency import natural_frequency
@@ -324,7 +324,7 @@ def test_law_is_what_the_chapter_computes(monkeypatch, name, words):
 def test_law_is_the_same_in_javascript(tmp_path, name, words):
     shown = page_laws()[name]
     points = shown.points(IN_JAVASCRIPT, seed=1)
-    law = translated(shown.law, list(shown.ranges), **words)
+    law = recorded(shown.law, list(shown.ranges), **words).javascript()
     rows = np.column_stack([*points.values()]).tolist()
     file = tmp_path / "law.js"
     file.write_text(
