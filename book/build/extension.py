@@ -15,22 +15,27 @@ def _build_folder(app: Sphinx) -> Path:
     return Path(app.outdir).parent
 
 
+def _drawn(app: Sphinx) -> Path:
+    """Return the folder of frames that are drawn ahead; its layout is that of the pages' folder."""
+    return _build_folder(app) / "drawn" / "_static" / "frames"
+
+
 def _trace(app: Sphinx, page: str) -> Path:
     return _build_folder(app) / "traces" / f"{page}.json"
 
 
 def use_local_scripts(app: Sphinx, config: Any) -> None:
     """Point the pages at fetched scripts; where none can be had, at the usual addresses."""
-    folder = Path(app.srcdir) / "_vendor"
+    folder, drawn = Path(app.srcdir) / "_vendor", _drawn(app)
+    drawn.mkdir(parents=True, exist_ok=True)
+    config.html_extra_path = [str(folder), str(drawn.parents[1])]
     if vendor.ensure(folder):
-        config.html_extra_path = [str(folder)]
         config.mathjax_path = "mathjax/tex-mml-chtml.js"
-        config.nb_ipywidgets_js = {"widgets/require.js": {}, "widgets/embed-amd.js": {}}
     else:
         print(
             "NOTE: the npm registry cannot be reached. The book is built all the same, but its\n"
-            "      pages will load MathJax and the widget scripts from public CDN addresses, and\n"
-            "      show neither equations nor sliders without a network.",
+            "      pages will load MathJax and what draws sliders' figures from public CDN addresses,\n"
+            "      and show neither equations nor these figures without a network.",
             flush=True,
         )
 
@@ -41,6 +46,7 @@ def prepare_kernels(app: Sphinx) -> None:
     tracing.install_hook(ipython)
     os.environ["IPYTHONDIR"] = str(ipython)
     os.environ["SOFTGRIP_BOOK"] = "static"
+    os.environ["SOFTGRIP_FRAMES"] = str(_drawn(app))
 
 
 def find_stale_pages(
@@ -92,8 +98,11 @@ def add_explorers(
     """Give the pages that have figures with sliders, and only these, what draws them."""
     if 'class="explorer"' in context.get("body", ""):
         # The theme adds the book's own script by itself.
-        for script in ("plot/d3.min.js", "plot/plot.umd.min.js"):
-            app.add_js_file(script, loading_method="defer")
+        for package in vendor.PLOTS:
+            ((source, place),) = package.files
+            if not (Path(app.srcdir) / "_vendor" / place).is_file():
+                place = f"{vendor.PUBLIC}/{package.name}@{package.version}/{source}"
+            app.add_js_file(place.removeprefix("_static/"), loading_method="defer")
 
 
 def remove_former_modules(app: Sphinx, _error: Exception | None) -> None:

@@ -1,8 +1,7 @@
 """The book's scripts, fetched at build time so that its pages need no network.
 
-MathJax, what draws figures with sliders, and the widget manager come as npm packages, at pinned
-versions whose archives are checked against a known digest. They are laid under ``_vendor/`` and
-never committed.
+MathJax and what draws figures with sliders come as npm packages, at pinned versions whose archives
+are checked against a known digest. They are laid under ``_vendor/`` and never committed.
 """
 
 import base64
@@ -51,26 +50,12 @@ PACKAGES = (
             ("es5/output/chtml/fonts/woff-v2", "_static/mathjax/output/chtml/fonts/woff-v2"),
         ),
     ),
-    Package(
-        "@jupyter-widgets/html-manager",
-        "1.0.15",
-        "sha512-5thBIV6ymNgmPVOHvzx+gGy8ZSKmSazhtGw4/c4xJDVzRhG9PTeQsRjF3FUTopvFi//SABeNz1yp47bCrJ3CQA==",
-        # The script holds two bundles, each with a style. One asks for the fonts below its own
-        # name, beside the page, the other a folder higher; which of them counts hangs on time.
-        (
-            ("dist/embed-amd.js", "_static/widgets/embed-amd.js"),
-            ("dist", "@jupyter-widgets/html-manager/dist"),
-            ("dist", "@jupyter-widgets"),
-        ),
-    ),
-    Package(
-        "requirejs",
-        "2.3.8",
-        "sha512-7/cTSLOdYkNBNJcDMWf+luFvMriVm7eYxp4BcFCsAX0wF421Vyce5SXP17c+Jd5otXKGNehIonFlyQXSowL6Mw==",
-        (("require.js", "_static/widgets/require.js"),),
-    ),
 )
 
+PUBLIC = "https://cdn.jsdelivr.net/npm"
+"""Where a page finds the scripts that could not be fetched."""
+PLOTS = PACKAGES[:2]
+"""What draws figures with sliders, in the order in which it is loaded."""
 STAMP = "packages.json"
 FONTS = {".woff", ".woff2"}
 

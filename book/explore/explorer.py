@@ -1,13 +1,15 @@
 """A figure with sliders: computed by the page, chosen among frames, or redrawn by a kernel."""
 
+import hashlib
 import inspect
 import os
 from base64 import b64encode
 from collections.abc import Callable, Mapping, Sequence
 from itertools import product
+from pathlib import Path
 from typing import Any, Literal
 
-from book.explore.frames import PAGE, check_count, render
+from book.explore.frames import PAGE, Frame, check_count, render
 from book.explore.law import recorded
 from book.explore.page import Explorer
 from book.explore.plot import Plot
@@ -16,6 +18,8 @@ from softgrip.errors import InvalidInputError
 
 Mode = Literal["live", "static"]
 MODE_VARIABLE = "SOFTGRIP_BOOK"
+FRAMES_VARIABLE = "SOFTGRIP_FRAMES"
+"""Folder of the frames that are drawn ahead for the pages."""
 MOST = 4
 """Sliders of one figure."""
 
@@ -64,7 +68,16 @@ def _frames(draw: Callable[..., Any], sliders: Mapping[str, Slider | Range]) -> 
     check_count(len(combinations))
     frames = [render(draw, dict(zip(sliders, chosen, strict=True))) for chosen in combinations]
     PAGE.spend(frames)
-    return [f"data:image/webp;base64,{b64encode(frame.webp).decode()}" for frame in frames]
+    return [_address(frame) for frame in frames]
+
+
+def _address(frame: Frame) -> str:
+    """Return where a page finds a frame: in a file beside it, or, without a folder, in itself."""
+    if folder := os.environ.get(FRAMES_VARIABLE):
+        file = Path(folder) / f"{hashlib.sha256(frame.webp).hexdigest()[:20]}.webp"
+        file.write_bytes(frame.webp)
+        return f"_static/frames/{file.name}"
+    return f"data:image/webp;base64,{b64encode(frame.webp).decode()}"
 
 
 def explore(

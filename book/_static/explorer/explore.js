@@ -161,6 +161,8 @@
     }
 
     for (const control of controls) control.addEventListener("input", ask);
+    // All frames are fetched when one is wanted, so that the next is there at once.
+    root.addEventListener("pointerenter", () => it.frames?.forEach((src) => { new Image().src = src; }), { once: true });
     root.querySelector("button").addEventListener("click", () => put(beginning));
     part("values")?.addEventListener("toggle", draw);
     addEventListener("hashchange", () => fromAddress(true));
