@@ -34,8 +34,8 @@ def use_local_scripts(app: Sphinx, config: Any) -> None:
     else:
         print(
             "NOTE: the npm registry cannot be reached. The book is built all the same, but its\n"
-            "      pages will load MathJax and what draws sliders' figures from public CDN addresses,\n"
-            "      and show neither equations nor these figures without a network.",
+            "      pages will load MathJax, and what draws figures with sliders, from public CDN\n"
+            "      addresses, and show neither without a network.",
             flush=True,
         )
 

@@ -23,8 +23,11 @@ TRACE_VARIABLE = "SOFTGRIP_PAGE_TRACE"
 ROOT = Path(softgrip.__file__).resolve().parent.parent
 WATCHED = (
     *(ROOT / "softgrip", ROOT / "data"),
-    *(ROOT / "book" / room for room in ("companion", "live", "author")),
-    *sorted((ROOT / "book").glob("chapter_*")),
+    *sorted(
+        file.parent
+        for file in (ROOT / "book").glob("*/__init__.py")
+        if file.parent != Path(__file__).resolve().parent
+    ),
 )
 
 STARTUP = f"""\
