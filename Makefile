@@ -21,11 +21,7 @@ $(READY): environment.lock pyproject.toml
 	@touch $@
 
 book: $(READY)  ## build the book: book/_build/html/index.html
-	@$(BIN)/python -c 'from importlib.metadata import version; found = version("jupyter-book"); \
-	  found.startswith("1.") or exit(f"The book needs jupyter-book 1.x, $(VENV) has {found}: rm -r $(VENV), make book")'
-	@# Sphinx tells a warning once: what it has read is dropped, so that the next build tells it again.
-	@$(BIN)/jupyter-book build --quiet -W -n --keep-going book || { rm -rf book/_build/.doctrees; exit 1; }
-	@echo "The book: file://$(CURDIR)/book/_build/html/index.html"
+	@$(BIN)/python -m book.build
 
 test: $(READY)  ## run the tests; those of the pages build the book and open it in Chromium
 	@$(BIN)/python -m pytest -n auto --dist loadfile --no-loadscope-reorder

@@ -222,7 +222,8 @@ def find_step(path: Path | str, *, window: float = WINDOW) -> LoggedStep:
         begun, initial = float(clock.time[start]), float(reference[0])
     else:
         refuse_late_start(path, log, "the time of the step, which a change of the reference tells")
-        noise = float(np.std(np.diff(angle[angle.size // 2 :]))) / 2**0.5
+        late = np.diff(angle[angle.size // 2 :])
+        noise = float(np.std(late)) / 2**0.5 if late.size else 0.0
         if abs(angle[0]) > max(BENT * abs(reference[-1]), SURE * noise):
             initial = float(angle[0])
     if changes.size > 1 or reference[-1] == initial:

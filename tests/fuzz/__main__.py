@@ -25,7 +25,7 @@ from pathlib import Path
 
 import numpy as np
 
-from softgrip.errors import DependentRowsWarning, FitWarning, SoftgripError
+from softgrip.errors import DependentRowsWarning, FitWarning, LeftOutWarning, SoftgripError
 from tests.fuzz.damage import damaged
 from tests.fuzz.readers import RARE, READERS, SELDOM
 from tests.fuzz.seeds import SEEDS
@@ -110,7 +110,7 @@ def read_block(seed: int, first: int, files: int) -> tuple[int, list[Finding]]:
     with warnings.catch_warnings(), tempfile.TemporaryDirectory() as folder:
         # Of NumPy and SciPy: what warns of an invalid number shows it to a user.
         warnings.simplefilter("error", RuntimeWarning)
-        for ours in (FitWarning, DependentRowsWarning):
+        for ours in (FitWarning, DependentRowsWarning, LeftOutWarning):
             warnings.simplefilter("ignore", ours)
         numbers = range(first, first + files)
         return files, [one for number in numbers for one in read(seed, number, Path(folder))]
