@@ -30,7 +30,7 @@ def _files(top: Path) -> Iterator[Path]:
 
 
 def _sources() -> str:
-    """Return a digest of all that a build reads: files by content, public data by place and size."""
+    """Return a digest of what a build reads: files by content, public data by place and size."""
     found = hashlib.sha256(sys.version.encode())
     for name in MADE_OF:
         top = ROOT / name
