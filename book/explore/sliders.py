@@ -191,6 +191,6 @@ class Range:
     def data(self, name: str) -> dict[str, Any]:
         """Return it as the page's script takes it."""
         return {
-            "name": name, "label": self.label, "unit": self.unit, "start": self.place,
-            "low": self.low, "high": self.high, "steps": self.steps, "log": self.log,
+            "name": name, "label": self.label, "unit": self.unit,
+            "start": self.place, "begin": self.start, "low": self.low, "high": self.high, "steps": self.steps, "log": self.log,
         }  # fmt: skip

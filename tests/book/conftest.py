@@ -67,7 +67,9 @@ def read_alone(alone: tuple[Path, dict[str, list[str]]]) -> dict[str, list[str]]
 @pytest.fixture(scope="session")
 def html(root: Path) -> Path:
     """Return the folder of the built pages."""
-    build(root / "book")
+    command = [sys.executable, "-m", "book.build"]
+    result = subprocess.run(command, capture_output=True, text=True, cwd=root)
+    assert result.returncode == 0, result.stdout[-6000:] + result.stderr[-6000:]
     return root / "book" / "_build" / "html"
 
 

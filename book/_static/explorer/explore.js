@@ -7,6 +7,7 @@
   // A slider has whole steps; a decimal number stands for each, the one that is shown and computed.
   function valueAt(s, place) {
     if (s.values) return s.values[place];
+    if (place === s.start) return s.begin; // which may lie between two steps
     if (s.log) return +(s.low * (s.high / s.low) ** (place / s.steps)).toPrecision(3);
     return +(s.low + ((s.high - s.low) * place) / s.steps).toPrecision(12);
   }
@@ -65,7 +66,7 @@
     const ends = (axis) => axis.map((end) => (typeof end === "string" && found[end] ? found[end][0] : end));
     const panel = { ...asked, x: ends(asked.x), y: ends(asked.y) };
     const P = window.Plot, words = typeof panel.y[0] === "string";
-    const wide = Math.max(200, Math.min(room, 700) * (room < 520 ? 1 : panel.share) - 6);
+    const wide = Math.max(150, Math.min(room, 700) * (room < 520 ? 1 : panel.share) - 6);
     const found_marks = panel.marks.map((m) => marks[m.kind](P, m, found, panel));
     const options = {
       width: wide, height: panel.height, marginLeft: panel.left, marginRight: 14, marginTop: 22, marginBottom: 40,

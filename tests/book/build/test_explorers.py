@@ -80,6 +80,7 @@ def test_every_slider_moves_its_picture(chapters):
     for name, page in chapters.items():
         box = page.locator(f"#{name}")
         for handle in box.locator("input[type=range]").all():
+            box.locator("button").click()  # some sliders move nothing where another one is
             before = shown_by(box)
             last = handle.input_value() == handle.get_attribute("max")
             for _ in range(5):  # a step may change nothing that a digit of a pixel shows
