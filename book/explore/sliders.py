@@ -192,5 +192,6 @@ class Range:
         """Return it as the page's script takes it."""
         return {
             "name": name, "label": self.label, "unit": self.unit,
-            "start": self.place, "begin": self.start, "low": self.low, "high": self.high, "steps": self.steps, "log": self.log,
+            "start": self.place, "begin": self.start, "low": self.low, "high": self.high,
+            "steps": self.steps, "log": self.log,
         }  # fmt: skip
