@@ -32,8 +32,9 @@ from tests.fuzz.seeds import SEEDS
 
 BLOCK = 100
 """Files that a process is given at a time."""
-AGAIN = 10
-"""Of so many files that a first reader refuses, one is read by all."""
+ALL = 20
+"""Of so many files one is read by all that read its kind; the others by the first, and, if that
+does not refuse them, by another one in turn: so that a million takes an hour or two."""
 LONGEST = 20
 """s that a reader may take."""
 SHOWN = 5.0
@@ -82,10 +83,11 @@ def read(seed: int, number: int, folder: Path) -> list[Finding]:
     found = []
     first, *others = READERS[kind]
     rare = RARE.get(kind, ()) if number % SELDOM == 0 else ()
+    if number % ALL and others:
+        others = [others[number // len(SEEDS) % len(others)]]
     refused = False
     for reader in (first, *others, *rare):
-        # Those of one kind begin alike: what the first refuses is tried again but seldom.
-        if refused and number % AGAIN:
+        if refused and number % ALL:
             break
         signal.setitimer(signal.ITIMER_REAL, LONGEST)
         try:
