@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
 .DEFAULT_GOAL := help
-.PHONY: help book test lint lab figures ledger accept bench rig-test picture lock clean
+.PHONY: help book book-version test lint lab figures ledger accept bench rig-test picture lock clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z][a-z%-]*:.*## ' $(MAKEFILE_LIST) | sort \
@@ -20,8 +20,12 @@ $(READY): environment.lock pyproject.toml
 	.ci/environment $(VENV) "$$python"
 	@touch $@
 
-book: $(READY)  ## build the book: book/_build/html/index.html
+book: book-version  ## build the book: book/_build/html/index.html
 	@$(BIN)/python -m book.build
+
+book-version: $(READY)
+	@$(BIN)/python -c 'from importlib.metadata import version; found = version("jupyter-book"); \
+	  found.startswith("1.") or exit(f"The book needs jupyter-book 1.x, $(VENV) has {found}: rm -r $(VENV), make book")'
 
 test: $(READY)  ## run the tests; those of the pages build the book and open it in Chromium
 	@$(BIN)/python -m pytest -n auto --dist loadfile --no-loadscope-reorder

@@ -50,7 +50,7 @@ class Explorer:
             _control(self.name, name, slider) for name, slider in self.sliders.items()
         )
         if self.plot is None:
-            picture = f'<img src="{self.frames[0]}" alt="">'
+            picture = f'<img src="{self.frames[0]}" alt="{html.escape(self.alt)}">'
             role, told, values = "", "", ""
         else:
             picture, role = "", ' role="img"'

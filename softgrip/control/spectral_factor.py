@@ -1,4 +1,4 @@
-"""The gain of Eq. (3.30) without a Riccati equation: for symbols too, where `lqr_gain` is not.
+"""The gain of `lqr.lqr_gain` without a Riccati equation: for symbols too, where `lqr_gain` is not.
 
 With one input the regulator is a spectral factor: the polynomial d of its closed loop is the stable
 one with ``d(s) d(-s) = a(s) a(-s) + (p / R) (q_1 - q_2 s^2 + q_3 s^4)``, where a is that of the
@@ -16,7 +16,7 @@ ITERATIONS = 12
 def spectral_gain(
     damping: Number, stiffness: Number, p: Number, q: tuple[Number, Number, Number]
 ) -> list[Number]:
-    """Return K of ``u = -K x``, Eq. (3.30), for a pump with a finger.
+    """Return K of ``u = -K x``, as `lqr.lqr_gain`, for a pump with a finger.
 
     The plant is ``1 / (s (s**2 + damping s + stiffness))``. All may be symbols, or
     arrays that broadcast.

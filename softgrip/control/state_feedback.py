@@ -79,7 +79,7 @@ class StateFeedback:
 def fed_back(
     gain: Floats | Sequence[Number], error: Number, rate: Number, acceleration: Number
 ) -> Number:
-    """Return ``K (x_reference - x)`` for a reference at rest, Eq. (3.30), for symbols too."""
+    """Return ``K (x_reference - x)`` for a reference at rest, for symbols too."""
     return gain[0] * error - gain[1] * rate - gain[2] * acceleration
 
 

@@ -132,7 +132,9 @@ def prediction_interval(
     check_finite(a=a)
     fit = linear_fit(A, y)
     if a.shape != fit.coefficients.shape:
-        raise InvalidInputError("a", expected=f"shape {fit.coefficients.shape}", got=a.shape)
+        raise InvalidInputError(
+            "A, a", expected="shapes (m, p) and (p,) with m > p", got=(A.shape, a.shape)
+        )
     if not 0 < confidence < 1:
         raise InvalidInputError("confidence", expected="a number in (0, 1)", got=confidence)
     value, half = map(float, fit.response(a, confidence))

@@ -8,6 +8,8 @@ nor a value has survived: a claim may be missing, the change may make no differe
 the function's own tests to notice. ``--tests`` asks these too, of laws of ``softgrip``.
 """
 
+import __future__
+
 import argparse
 import ast
 import importlib
@@ -68,7 +70,10 @@ class Mutant:
         tree = _parsed(self.function)
         _change(_nodes(tree)[self.place])
         namespace = dict(self.function.__globals__)
-        exec(compile(ast.fix_missing_locations(tree), "<mutant>", "exec"), namespace)
+        flags = (
+            __future__.annotations.compiler_flag
+        )  # what is imported for types alone is not evaluated
+        exec(compile(ast.fix_missing_locations(tree), "<mutant>", "exec", flags), namespace)
         return namespace[self.name].__code__
 
 

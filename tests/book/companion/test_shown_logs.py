@@ -66,7 +66,7 @@ def test_figure_that_takes_no_logs_says_so(mine):
 def test_file_that_is_no_log_is_refused(tmp_path):
     path = tmp_path / "plain.csv"
     path.write_text("time,pressure\n0,0\n")
-    with pytest.raises(DataFileError, match="a column 'time' with its unit"):
+    with pytest.raises(DataFileError, match="a unit of 'time'"):
         with_logs(exhibit("Figure 4.4"), [path])
     shutil.copy(PUSH, path)
     assert with_logs(exhibit("Figure 4.4"), [path]).logs == (path,)
