@@ -155,7 +155,8 @@ def bandwidth_plot() -> Plot:
         [
             Panel(
                 [
-                    Dots(voltage.tolist(), (force / GRAM_FORCE).tolist(), "weights", radius=2.5),
+                    Dots(voltage.tolist(), (force / GRAM_FORCE).tolist(),
+                         "weights on the simulated layer", radius=2.5),
                     Line("voltage", "force", "regressor"),
                 ],
                 x=(-0.5, 4.5), y=(-5, 80), x_label="voltage (V)", y_label="force (gf)",

@@ -64,6 +64,10 @@ def _draw(finger: Finger, pressure: float, title: str, axis: tuple[float, float]
     return drawn
 
 
+LARGEST = 0.15
+"""Pressure up to which a finger is drawn, MPa."""
+
+
 def finger(top: Number, bottom: Number, wall: Number) -> dict[str, Any]:
     """Return a section 30 mm wide, its torque and bending over pressure, n as in the script.
 
@@ -72,7 +76,7 @@ def finger(top: Number, bottom: Number, wall: Number) -> dict[str, Any]:
     """
     section = Section(top * MM, bottom * MM, 30 * MM, wall * MM)
     made = Finger(section, fractional_power=SCRIPT_POWER)
-    over = np.linspace(0, 0.15, 31)
+    over = np.linspace(0, LARGEST, 31)
     pushed, bent = torque(section, over * MPa), bending_angle(made, over * MPa) / DEG
     half, inner = section.width / 2 / MM, 15 - wall
     return {
@@ -101,16 +105,16 @@ FINGER_PLOT = Plot(
         ),
         Panel(
             [Line("pressure", "torque", "torque", colour=BLUE)],
-            x=(0, 0.15), y=(0, 0.75), x_label="pressure (MPa)", y_label="torque (N m)",
+            x=(0, LARGEST), y=(0, 0.75), x_label="pressure (MPa)", y_label="torque (N m)",
             height=230, share=0.29, left=40,
         ),
         Panel(
             [Line("pressure", "angle", "bending", colour=ORANGE)],
-            x=(0, 0.15), y=(0, 300), x_label="pressure (MPa)", y_label="angle (deg)",
+            x=(0, LARGEST), y=(0, 300), x_label="pressure (MPa)", y_label="angle (deg)",
             height=230, share=0.29, left=40,
         ),
     ],
-    title="{most:.3f} N m and {widest:.0f} deg at 0.15 MPa, {frequency:.2f} rad/s",
+    title=f"{{most:.3f}} N m and {{widest:.0f}} deg at {LARGEST:g} MPa, {{frequency:.2f}} rad/s",
 )  # fmt: skip
 
 
@@ -199,7 +203,7 @@ LQR_PLOT = Plot(
     [
         Panel(
             [
-                Band([1 - BAND], [1 + BAND], label="within 5 %", colour=PRINTED),
+                Band([1 - BAND], [1 + BAND], label=f"within {100 * BAND:g} %", colour=PRINTED),
                 Level(0.8, "x", "printed settling time", colour=PRINTED),
                 Line("time", "command", "command u", colour=GREY, dash="6 3", step=True),
                 Line("time", "angle", "angle / step", colour=LINEAR),
@@ -207,6 +211,6 @@ LQR_PLOT = Plot(
             x=(0, DURATION), y=(-1.1, 1.4), x_label="time (s)", y_label="share",
         )
     ],
-    title="within 5 % after {settled:.2f} s",
-    cases=[("late", "not within 5 % in 4 s")],
+    title=f"within {100 * BAND:g} % after {{settled:.2f}} s",
+    cases=[("late", f"not within {100 * BAND:g} % in {DURATION:g} s")],
 )  # fmt: skip

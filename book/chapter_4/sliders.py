@@ -61,7 +61,8 @@ PUMP_PLOT = Plot(
         Panel(
             [
                 Level(0.15, label="0.15 MPa"),
-                Line("time", "gas", "gas law, syringe and 30 mL closed", colour=MEASURED),
+                Line("time", "gas", f"gas law, syringe and {BESIDE / ML:.0f} mL closed",
+                     colour=MEASURED),
                 Line("time", "constant", "Eq. (4.5), C constant", colour=LINEAR, dash="6 3"),
             ],
             x=(0, 20), y=(0, 0.2), x_label="time (s)", y_label="pressure (MPa)",
@@ -143,7 +144,7 @@ FILTER_PLOT = Plot(
             x=(0, 7), y=(0, 2000), x_label="time (s)", y_label="capacity (mL/MPa)",
         )
     ],
-    title="largest error above 0.10 MPa: {error:+.0f} %",
+    title=f"largest error above {HIGH / MPa:.2f} MPa: {{error:+.0f}} %",
 )  # fmt: skip
 
 
@@ -183,7 +184,7 @@ SIZING_PLOT = Plot(
             [
                 Bars("margin", NAMES, "fits", colour=LUDWICK, other=VERMILION,
                      label="can do it; else vermilion"),
-                Level(MARGIN, "x", "1.5 times what it needs"),
+                Level(MARGIN, "x", f"{MARGIN:g} times what it needs"),
             ],
             x=(0, 8), y=NAMES, x_label="torque over need", left=168, height=330,
         )
@@ -243,12 +244,12 @@ PID_PLOT = Plot(
     [
         Panel(
             [
-                Band("low", "high", label="within 5 %", colour=PRINTED),
+                Band("low", "high", label=f"within {100 * BAND:g} %", colour=PRINTED),
                 Line("time", "angle", "angle", colour=LUDWICK),
             ],
             x=(0, DURATION), y=(0, 160), x_label="time (s)", y_label="angle (deg)",
         )
     ],
-    title="within 5 % after {settled:.1f} s",
-    cases=[("late", "not within 5 % in 8 s")],
+    title=f"within {100 * BAND:g} % after {{settled:.1f}} s",
+    cases=[("late", f"not within {100 * BAND:g} % in {DURATION:g} s")],
 )  # fmt: skip

@@ -125,8 +125,8 @@ def test_values_are_told_in_words_and_in_a_table(chapters):
     assert box.locator(".values th").all_inner_texts()[0] == "rubber x"
 
 
-def test_a_redraw_takes_less_than_a_frame(chapters):
-    """95 of 100 within a frame of 60 a second on a quiet machine; ten times that on a busy one."""
+def test_a_redraw_takes_ten_frames_at_most(chapters):
+    """Half of them, on a busy machine too; on a quiet one most are there in the next frame."""
     for name, page in chapters.items():
         times = page.evaluate(
             """async (name) => {
