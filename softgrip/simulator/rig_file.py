@@ -90,9 +90,8 @@ def read_rig(path: Path | str) -> FittedRig:
     file = path_of(path)
     provenance = describe(file).provenance
     text = file.read_text(encoding="utf-8").splitlines()
-    notes = dict(
-        line[1:].strip().split(": ", 1) for line in text if line.startswith("#") and ": " in line
-    )
+    told = (line[1:].partition(": ") for line in text if line.startswith("#"))
+    notes = {name.strip(): value.strip() for name, _, value in told}
     if notes.get("schema") != SCHEMA:
         raise DataFileError(file, expected=f"'# schema: {SCHEMA}'", got=repr(notes.get("schema")))
     first = next((k for k, line in enumerate(text) if not line.startswith("#")), len(text))

@@ -39,6 +39,7 @@ DAMAGES = {
     "twice": ("pump.lead [m],0.008,,,given\n", "pump.lead [m],0.008,,,given\n" * 2, "each .*once"),
     "bits in halves": ("sensors.bits [1],10", "sensors.bits [1],10.5", "sensors.bits"),
     "another schema": ("softgrip-rig 1", "softgrip-rig 9", "schema: softgrip-rig 1"),
+    "no schema": ("schema: softgrip-rig 1", "schema: ", "schema: softgrip-rig 1'.*got ''"),
     "no period": ("period: 0.1", "period: soon", "column 'period', got 'soon'"),
 }  # fmt: skip
 
