@@ -36,7 +36,7 @@ ALL = 20
 """Of so many files one is read by all that read its kind; the others by the first, and, if that
 does not refuse them, by another one in turn: so that a million takes an hour or two."""
 LONGEST = 20
-"""s that a reader may take."""
+"""s of computing that a reader may take: a busy machine makes it no slower."""
 SHOWN = 5.0
 """s from one line of progress to the next."""
 
@@ -89,7 +89,7 @@ def read(seed: int, number: int, folder: Path) -> list[Finding]:
     for reader in (first, *others, *rare):
         if refused and number % ALL:
             break
-        signal.setitimer(signal.ITIMER_REAL, LONGEST)
+        signal.setitimer(signal.ITIMER_PROF, LONGEST)
         try:
             reader(path)
         except (SoftgripError, OSError):
@@ -102,13 +102,13 @@ def read(seed: int, number: int, folder: Path) -> list[Finding]:
             told = "".join(traceback.format_exception(error)[-6:])
             found.append((where, f"--seed {seed} --only {number}: {kind}, {name}\n{told}"))
         finally:
-            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.setitimer(signal.ITIMER_PROF, 0)
     return found
 
 
 def read_block(seed: int, first: int, files: int) -> tuple[int, list[Finding]]:
     """Read files from a number on, and return how many, with what was found."""
-    signal.signal(signal.SIGALRM, _slow)
+    signal.signal(signal.SIGPROF, _slow)
     with warnings.catch_warnings(), tempfile.TemporaryDirectory() as folder:
         # Of NumPy and SciPy: what warns of an invalid number shows it to a user.
         warnings.simplefilter("error", RuntimeWarning)
