@@ -13,10 +13,12 @@ Result = TypeVar("Result")
 
 _open: list[set[Path]] = []
 """The records that are being taken, the innermost last."""
+elsewhere: set[Path] = set()
+"""What other processes read for this one."""
 
 
-def listen(note: Callable[[Path], object], *events: str) -> None:
-    """Have every path noted that an audit event, such as ``open``, reads from now on.
+def listen(heard: Callable[[Path], object], *events: str) -> None:
+    """Have every path told that an audit event, such as ``open``, reads from now on.
 
     The interpreter never lets a listener go: call this once.
     """
@@ -25,19 +27,20 @@ def listen(note: Callable[[Path], object], *events: str) -> None:
         if event in events and isinstance(args[0], str | os.PathLike):
             mode = args[1] if event == "open" else None
             if mode is None or (isinstance(mode, str) and "r" in mode):
-                note(Path(os.path.realpath(args[0])))
+                heard(Path(os.path.realpath(args[0])))
 
     sys.addaudithook(audit)
 
 
-def _note(paths: set[Path] | frozenset[Path]) -> None:
+def note(paths: set[Path] | frozenset[Path]) -> None:
+    """Count files as read, in all records that are being taken."""
     for record in _open:
         record |= paths
 
 
 @cache
 def _start() -> None:
-    listen(lambda path: _note({path}), "open")
+    listen(lambda path: note({path}), "open")
 
 
 @contextmanager
@@ -67,7 +70,7 @@ def remembered(function: Callable[Arguments, Result]) -> Callable[Arguments, Res
     @wraps(function)
     def again(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Result:
         result, files = first(*args, **kwargs)  # type: ignore[arg-type]  # hashable, as for any cache
-        _note(files)
+        note(files)
         return result
 
     again.cache_clear = first.cache_clear  # type: ignore[attr-defined]

@@ -1,81 +1,81 @@
-"""The API page: a directive that documents all modules of a folder, from their docstrings."""
+"""Links into the reference: the modules of a package, and what pages name of the code."""
 
-from types import UnionType
-from typing import Any, ClassVar, TypeVar, get_origin
+import ast
+from functools import cached_property
+from pathlib import Path
+from typing import Any, ClassVar
 
 from docutils import nodes
-from docutils.statemachine import StringList
 from sphinx.application import Sphinx
-from sphinx.ext.napoleon import Config
-from sphinx.ext.napoleon.docstring import GoogleDocstring
 from sphinx.util.docutils import SphinxDirective
+from sphinx.util.inventory import InventoryFile
 
+from book.build.equations import parsed, prose
+from book.build.reference import FOLDER, Reference, modules
 from book.build.tracing import ROOT
 
-INHERITED = {"set_score_request"}
-"""What scikit-learn adds to a regressor, without a docstring that Sphinx could read."""
 
+def first_line(name: str) -> str:
+    """Return the first line of the docstring of a module or package.
 
-def modules(package: str) -> list[str]:
-    """Return the modules of a package, without those below its sub-packages.
-
-    >>> modules("softgrip")[:3]
-    ['softgrip.arrays', 'softgrip.checks', 'softgrip.errors']
+    >>> first_line("softgrip.units")
+    'Units: the package is in SI; these are for what is read, shown, or typed.'
     """
-    folder = ROOT.joinpath(*package.split("."))
-    names = sorted(file.stem for file in folder.glob("*.py"))
-    return [f"{package}.{name}" for name in names if not name.startswith("__")]
+    place = ROOT.joinpath(*name.split("."))
+    file = place / "__init__.py" if place.is_dir() else place.with_suffix(".py")
+    words = ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) or ""
+    return words.partition("\n")[0]
 
 
 class Api(SphinxDirective):
-    """``{api}`` with a package: its docstring, then its modules with their members."""
+    """``{api}`` with a package: what it and its modules are, each with a link to the reference."""
 
     required_arguments = 1
     option_spec: ClassVar[dict[str, Any]] = {}
 
     def run(self) -> list[nodes.Node]:
-        """Return what autodoc makes of the modules."""
+        """Return a paragraph and a list."""
         package = self.arguments[0]
-        lines = ["```{eval-rst}", f".. automodule:: {package}", ""]
+        found = [f"{prose(first_line(package))} (:py:mod:`{package}`)", ""]
         for name in modules(package):
             self.env.note_dependency(str(ROOT.joinpath(*name.split(".")).with_suffix(".py")))
-            lines += [f".. automodule:: {name}", "   :members:", ""]
-        place = nodes.container()
-        self.state.nested_parse(StringList([*lines, "```"], package), 0, place)
-        return [*place.children]
+            found.append(f"- :py:mod:`{name}`: {prose(first_line(name))}")
+        return parsed(self, found)
 
 
-FORM = Config(
-    napoleon_use_param=False,  # several names may share a line
-    napoleon_use_rtype=False,
-    napoleon_custom_sections=[("Attributes", "params_style")],  # else each would stand twice
-)
+class Links:
+    """From a book into its reference, which is made while the pages run."""
 
+    def start(self, app: Sphinx) -> None:
+        """Have it made."""
+        self.reference = Reference(Path(app.outdir))
 
-def read_sections(
-    _app: Sphinx, what: str, _name: str, _obj: object, _options: object, lines: list[str]
-) -> None:
-    """Turn the sections of a docstring into fields; a value's text is prose, colons and all."""
-    if what not in ("attribute", "data", "property"):
-        lines[:] = GoogleDocstring(lines, FORM, what=what).lines()  # type: ignore[arg-type]
+    @cached_property
+    def places(self) -> dict[str, str]:
+        """Where each object is, by its name."""
+        with self.reference.wait().open("rb") as stream:
+            found = InventoryFile.load(stream, FOLDER, lambda top, rest: f"{top}/{rest}")
+        kinds = [items for kind, items in found.items() if kind.startswith("py:")]
+        return {name: place for items in kinds for name, (_, _, place, _) in items.items()}
 
+    def resolve(self, _app: Sphinx, _env: Any, node: Any, words: nodes.Node) -> nodes.Node | None:
+        """Link what a page names of the code."""
+        if node.get("refdomain") != "py" or node["reftarget"] not in self.places:
+            return None
+        up = "../" * node["refdoc"].count("/")
+        return nodes.reference("", "", words, refuri=up + self.places[node["reftarget"]])
 
-def skip(_app: Sphinx, what: str, name: str, found: object, _skip: bool, _: object) -> bool | None:
-    """Leave out names of types, which say nothing that their module does not."""
-    alias = found is Any or isinstance(found, TypeVar | UnionType) or get_origin(found) is not None
-    return True if (what == "module" and alias) or name in INHERITED else None
-
-
-def know_elsewhere(_app: Sphinx, config: Any) -> None:
-    """Let docstrings name what is documented in another project (YAML has no pairs)."""
-    others = ("sklearn.exceptions.NotFittedError", "csv.Error")
-    config.nitpick_ignore = [("py:exc", name) for name in others]
+    def finish(self, _app: Sphinx, error: Exception | None) -> None:
+        """Have it ready when the book is."""
+        if error is None:
+            self.reference.wait()
 
 
 def setup(app: Sphinx) -> None:
-    """Add the directive."""
-    app.connect("config-inited", know_elsewhere)
-    app.setup_extension("sphinx.ext.autodoc")
+    """Add the directive, and connect the links to the stages of a build."""
     app.add_directive("api", Api)
-    app.connect("autodoc-process-docstring", read_sections)
-    app.connect("autodoc-skip-member", skip)
+    if (Path(app.srcdir) / "api.md").is_file():
+        links = Links()
+        app.connect("builder-inited", links.start)
+        app.connect("missing-reference", links.resolve)
+        app.connect("build-finished", links.finish)

@@ -15,7 +15,6 @@ from typing import Any, ClassVar
 from docutils import nodes
 from docutils.statemachine import StringList
 from sphinx.application import Sphinx
-from sphinx.pycode import ModuleAnalyzer
 from sphinx.util.docutils import SphinxDirective
 
 from book.build.numbering import number as label_number
@@ -150,35 +149,33 @@ class Equations(SphinxDirective):
                 rows.append(
                     (
                         f":eq:`eq-{number.replace('.', '-')}`",
-                        _prose(owner.words),
+                        prose(owner.words),
                         f":py:obj:`{code} <{owner.full_name}>`",
                         f":py:obj:`{test.path}.py::{test.name} <{test.full_name}>`",
                     )
                 )
         for first, *rest in rows:
             lines += [f"   * - {first}", *(f"     - {cell}" for cell in rest)]
-        return _parsed(self, lines)
+        for folder in ("softgrip", "tests"):
+            for file in (ROOT / folder).rglob("*.py"):
+                self.env.note_dependency(str(file))
+        return parsed(self, lines)
 
 
-class EquationTests(SphinxDirective):
-    """``{equation-tests}``: the tests that `Equations` names, each with a link to its source."""
-
-    option_spec: ClassVar[dict[str, Any]] = {}
-
-    def run(self) -> list[nodes.Node]:
-        """Return their names and what they say of themselves."""
-        lines = []
-        for test in sorted({test for _, test in pairs().values()}, key=lambda test: test.full_name):
-            lines += [f".. py:function:: {test.name}", f"   :module: {test.module}"]
-            lines += ["   :no-index-entry:", "   :no-contents-entry:", ""]
-            lines += [f"   {_prose(test.words)}", ""]
-        return _parsed(self, lines)
+def listed_tests() -> list[str]:
+    """Return, as reStructuredText, the tests that `Equations` names and what they say."""
+    lines = []
+    for test in sorted({test for _, test in pairs().values()}, key=lambda test: test.full_name):
+        lines += [f".. py:function:: {test.name}", f"   :module: {test.module}"]
+        lines += ["   :no-index-entry:", "   :no-contents-entry:", ""]
+        lines += [f"   {prose(test.words)}", ""]
+    return lines
 
 
-def _prose(words: str) -> str:
+def prose(words: str) -> str:
     r"""Return a docstring's line as reStructuredText in which nothing but code is marked up.
 
-    >>> _prose("Return the ``|W|`` of `box`, x_1.")
+    >>> prose("Return the ``|W|`` of `box`, x_1.")
     'Return the ``|W|`` of ``box``, x\\_1.'
     """
     parts = re.split(r"`+([^`]+)`+", words)
@@ -187,28 +184,12 @@ def _prose(words: str) -> str:
     return "".join(parts)
 
 
-def _parsed(directive: SphinxDirective, lines: list[str]) -> list[nodes.Node]:
-    for folder in ("softgrip", "tests"):
-        for file in (ROOT / folder).rglob("*.py"):
-            directive.env.note_dependency(str(file))
+def parsed(directive: SphinxDirective, lines: list[str]) -> list[nodes.Node]:
+    """Return what reStructuredText says, for a directive in a page of MyST."""
     place = nodes.container()
-    content = StringList(["```{eval-rst}", *lines, "```"], "equations")
+    content = StringList(["```{eval-rst}", *lines, "```"], directive.name)
     directive.state.nested_parse(content, 0, place)
     return [*place.children]
-
-
-def source_of_tests(_app: Sphinx, module: str) -> tuple[str, dict[str, Any]] | None:
-    """Give the source pages a test module without importing it."""
-    if not module.startswith("tests."):
-        return None
-    file = ROOT.joinpath(*module.split(".")).with_suffix(".py")
-    analyzer = ModuleAnalyzer.for_file(str(file), module)
-    return analyzer.code, analyzer.find_tags()
-
-
-def home(_app: Sphinx, module: str | None, _name: str) -> str | None:
-    """Say that all is defined where it is listed: properties too, which know no module."""
-    return module
 
 
 def find_changed_links(_app: Sphinx, env: Any) -> list[str]:
@@ -231,7 +212,7 @@ def add_links(app: Sphinx, doctree: nodes.document, page: str) -> None:
             continue
         links = nodes.paragraph(classes=["equation-links"])
         for word, place in zip(("code", "test"), pair, strict=True):
-            uri = f"{app.builder.get_relative_uri(page, f'_modules/{place.path}')}#{place.name}"
+            uri = f"{app.builder.get_relative_uri(page, f'api/_modules/{place.path}')}#{place.name}"
             links += nodes.reference("", word, refuri=uri, internal=True, reftitle=place.full_name)
             links += nodes.Text(" ")
         block.parent.insert(block.parent.index(block) + 1, links)
@@ -239,10 +220,6 @@ def add_links(app: Sphinx, doctree: nodes.document, page: str) -> None:
 
 def setup(app: Sphinx) -> None:
     """Add the directives and connect the links to the stages of a build."""
-    app.setup_extension("sphinx.ext.viewcode")
     app.add_directive("equations", Equations)
-    app.add_directive("equation-tests", EquationTests)
-    app.connect("viewcode-find-source", source_of_tests)
-    app.connect("viewcode-follow-imported", home)
     app.connect("env-get-updated", find_changed_links)
     app.connect("doctree-resolved", add_links)

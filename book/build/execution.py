@@ -18,6 +18,8 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError, CellTimeoutError
 from nbformat import NotebookNode
 
+from book.build import forked, judging
+
 MOST = 4
 """Pages at a time, or as many as there are cores: a kernel takes up to a gigabyte."""
 
@@ -37,15 +39,25 @@ def waiting(env: Any, pages: Iterable[str]) -> dict[str, NotebookNode]:
     return found
 
 
-def execute(env: Any, pages: Iterable[str], variables: Callable[[str], dict[str, str]]) -> None:
+def execute(
+    env: Any,
+    pages: Iterable[str],
+    variables: Callable[[str], dict[str, str]],
+    verdicts: Path,
+) -> None:
     """Run pages and keep their outputs; those that fail are left out.
+
+    The verdicts that they tell are judged before, and the longest pages run first.
 
     Args:
         env: Of Sphinx, with the settings of MyST-NB.
         pages: By name; those whose outputs are kept, or that have no code, are skipped.
         variables: Gives the environment of a page's kernel.
+        verdicts: Folder of what is judged.
     """
     left = waiting(env, pages)
+    texts = {page: "\n".join(cell.source for cell in left[page].cells) for page in left}
+    chapters = judging.missing(texts.values(), verdicts)
     cache = get_cache(env.mystnb_config.execution_cache_path)
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     at_a_time = asyncio.Semaphore(min(MOST, cores or 1))
@@ -59,6 +71,7 @@ def execute(env: Any, pages: Iterable[str], variables: Callable[[str], dict[str,
                 timeout=env.mystnb_config.execution_timeout,
                 record_timing=False,  # it would stand in the cells, by which outputs are found
                 resources={"metadata": {"path": str(path.parent)}},
+                kernel_manager_class=forked.kernel_manager(),
             )
             try:
                 await client.async_execute(env=os.environ | variables(page))
@@ -69,7 +82,12 @@ def execute(env: Any, pages: Iterable[str], variables: Callable[[str], dict[str,
         bundle = CacheBundleIn(notebook, str(path), data={"execution_seconds": took})
         cache.cache_notebook_bundle(bundle, check_validity=False, overwrite=True)
 
+    async def judge(chapter: int) -> None:
+        async with at_a_time:
+            await asyncio.to_thread(judging.judge_apart, verdicts, chapter)
+
     async def run_all() -> None:
-        await asyncio.gather(*map(run, left))
+        await asyncio.gather(*map(judge, chapters))
+        await asyncio.gather(*map(run, sorted(left, key=lambda page: -len(texts[page]))))
 
     asyncio.run(run_all())

@@ -8,7 +8,18 @@ from typing import Any
 from jupyter_cache import get_cache
 from sphinx.application import Sphinx
 
-from book.build import api, claim_role, equations, execution, numbering, tracing, vendor
+from book.build import (
+    api,
+    claim_role,
+    equations,
+    execution,
+    judging,
+    light,
+    numbering,
+    tracing,
+    vendor,
+)
+from book.companion.judged import VARIABLE
 
 
 def _build_folder(app: Sphinx) -> Path:
@@ -20,6 +31,10 @@ def _drawn(app: Sphinx) -> Path:
     return _build_folder(app) / "drawn" / "_static" / "frames"
 
 
+def _verdicts(app: Sphinx) -> Path:
+    return _build_folder(app) / "verdicts"
+
+
 def _trace(app: Sphinx, page: str) -> Path:
     return _build_folder(app) / "traces" / f"{page}.json"
 
@@ -29,15 +44,16 @@ def use_local_scripts(app: Sphinx, config: Any) -> None:
     folder, drawn = Path(app.srcdir) / "_vendor", _drawn(app)
     drawn.mkdir(parents=True, exist_ok=True)
     config.html_extra_path = [str(folder), str(drawn.parents[1])]
-    if vendor.ensure(folder):
-        config.mathjax_path = "mathjax/tex-mml-chtml.js"
-    else:
+    if not vendor.ensure(folder):
         print(
             "NOTE: the npm registry cannot be reached. The book is built all the same, but its\n"
-            "      pages will load MathJax, and what draws figures with sliders, from public CDN\n"
+            "      pages will load what sets equations and draws figures with sliders from public\n"
             "      addresses, and show neither without a network.",
             flush=True,
         )
+    # KaTeX in the place of MathJax: a quarter of the size, and the page is set when it is shown.
+    config.mathjax_path = vendor.address(folder, vendor.EQUATIONS)
+    config.mathjax_options = {"defer": "defer"}
 
 
 def prepare_kernels(app: Sphinx) -> None:
@@ -47,6 +63,8 @@ def prepare_kernels(app: Sphinx) -> None:
     os.environ["IPYTHONDIR"] = str(ipython)
     os.environ["SOFTGRIP_BOOK"] = "static"
     os.environ["SOFTGRIP_FRAMES"] = str(_drawn(app))
+    os.environ[VARIABLE] = str(_verdicts(app))
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # else each process compiles all it imports
 
 
 def find_stale_pages(
@@ -76,7 +94,7 @@ def find_stale_pages(
 def announced(app: Sphinx, page: str) -> dict[str, str]:
     """Write down what is around a page, and return what tells its kernel which page it serves."""
     trace = _trace(app, page)
-    context = trace.with_suffix(".context.json")
+    context = tracing.context_of(trace)
     context.parent.mkdir(parents=True, exist_ok=True)
     context.write_text(json.dumps(tracing.surroundings()))
     return {tracing.TRACE_VARIABLE: str(trace)}
@@ -84,7 +102,8 @@ def announced(app: Sphinx, page: str) -> dict[str, str]:
 
 def run_pages(app: Sphinx, env: Any, pages: list[str]) -> None:
     """Run the pages that are about to be read and have no outputs, side by side."""
-    execution.execute(env, pages, lambda page: announced(app, page))
+    judging.forget_stale(_verdicts(app))
+    execution.execute(env, pages, lambda page: announced(app, page), _verdicts(app))
 
 
 def announce(app: Sphinx, page: str, _source: list[str]) -> None:
@@ -92,34 +111,26 @@ def announce(app: Sphinx, page: str, _source: list[str]) -> None:
     os.environ.update(announced(app, page))
 
 
-def add_explorers(
-    app: Sphinx, _page: str, _template: str, context: dict[str, Any], _tree: Any
+def add_scripts(
+    app: Sphinx, page: str, _template: str, context: dict[str, Any], _tree: Any
 ) -> None:
-    """Give the pages that have figures with sliders, and only these, what draws them."""
+    """Give the pages that have figures with sliders, or equations, and only these, what they need.
+
+    The theme adds the book's own scripts, and Sphinx that of equations.
+    """
+    folder = Path(app.srcdir) / "_vendor"
     if 'class="explorer"' in context.get("body", ""):
-        # The theme adds the book's own script by itself.
         for package in vendor.PLOTS:
-            ((source, place),) = package.files
-            if not (Path(app.srcdir) / "_vendor" / place).is_file():
-                place = f"{vendor.PUBLIC}/{package.name}@{package.version}/{source}"
-            app.add_js_file(place.removeprefix("_static/"), loading_method="defer")
-
-
-def remove_former_modules(app: Sphinx, _error: Exception | None) -> None:
-    """Remove source pages of modules that are no more: a build adds, but never takes away."""
-    pages = Path(app.outdir) / "_modules"
-    for page in [
-        page for top in ("softgrip", "book", "tests") for page in (pages / top).rglob("*.html")
-    ]:
-        source = tracing.ROOT / page.relative_to(pages).with_suffix("")
-        if not (source.is_dir() or source.with_suffix(".py").is_file()):
-            page.unlink()
+            app.add_js_file(vendor.address(folder, package), loading_method="defer")
+    if app.env.get_domain("math").has_equations(page):  # type: ignore[attr-defined]
+        app.add_css_file(vendor.address(folder, vendor.EQUATIONS, 1))
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
     """Connect the parts to the stages of a build."""
     api.setup(app)
     claim_role.setup(app)
+    light.setup(app)
     equations.setup(app)
     numbering.setup(app)
     app.connect("config-inited", use_local_scripts)
@@ -127,7 +138,6 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("env-get-outdated", find_stale_pages)
     app.connect("env-before-read-docs", run_pages)
     app.connect("source-read", announce)
-    app.connect("html-page-context", add_explorers)
-    app.connect("build-finished", remove_former_modules)
+    app.connect("html-page-context", add_scripts)
     app.add_css_file("softgrip.css")
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}

@@ -22,7 +22,7 @@ def main() -> None:
             viewport={"width": 1280, "height": 900}, device_scale_factor=1.5, offline=True
         )
         page.goto(page_file.as_uri())
-        page.wait_for_selector(".math mjx-container")
+        page.wait_for_selector(".math .katex")
         page.locator(TOP).scroll_into_view_if_needed()
         first, last = page.locator(TOP).bounding_box(), page.locator(BOTTOM).bounding_box()
         if first is None or last is None:

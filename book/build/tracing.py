@@ -11,13 +11,13 @@ import hashlib
 import json
 import sys
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from IPython import get_ipython
 
 import softgrip
-from softgrip.reads import listen
+from softgrip import reads
 
 TRACE_VARIABLE = "SOFTGRIP_PAGE_TRACE"
 ROOT = Path(softgrip.__file__).resolve().parent.parent
@@ -78,11 +78,16 @@ def _watched(files: Iterable[Path]) -> set[Path]:
     }
 
 
-def record(trace: str) -> None:
+def context_of(trace: Path) -> Path:
+    """Return the file that tells what was around when a trace was taken."""
+    return trace.with_suffix(".context.json")
+
+
+def record(trace: str) -> Callable[[], None]:
     """Watch this process; write the watched files that it used into ``trace``.
 
-    That happens when it ends and, in IPython, after each cell: who asked for the cells may not wait
-    for the end, on a busy machine, and kill the process.
+    That happens when what is returned is called, when the process ends and, in IPython, after each
+    cell: who asked for the cells may not wait for the end, on a busy machine, and kill the process.
 
     Modules are taken from `sys.modules` (an import opens the compiled file, not the source), data
     files and listed folders from the interpreter's own audit. A file that was changed while the
@@ -99,7 +104,7 @@ def record(trace: str) -> None:
             and (file := getattr(module, "__file__", None)) is not None
         )
         # Another thread of a page may open files meanwhile.
-        files = sorted(_watched(opened.copy()) | _watched(modules))
+        files = sorted(_watched(opened.copy() | reads.elsewhere) | _watched(modules))
         content = {
             str(file.relative_to(ROOT)): digest(file)
             if file.is_dir() or file.stat().st_mtime < started
@@ -111,10 +116,11 @@ def record(trace: str) -> None:
         Path(trace).write_text(json.dumps(content, indent=1))
 
     Path(trace).unlink(missing_ok=True)  # what an earlier process read is not what this one does
-    listen(opened.add, "open", "os.listdir", "os.scandir")
+    reads.listen(opened.add, "open", "os.listdir", "os.scandir")
     atexit.register(write)
     if shell := get_ipython():
         shell.events.register("post_run_cell", write)
+    return write
 
 
 def is_current(trace: Path, around: dict[str, str]) -> bool:
@@ -122,7 +128,7 @@ def is_current(trace: Path, around: dict[str, str]) -> bool:
     if not trace.is_file():
         return False
     seen = json.loads(trace.read_text())
-    context = trace.with_suffix(".context.json")
+    context = context_of(trace)
     return (
         all(digest(ROOT / name) == value for name, value in seen.items())
         and context.is_file()

@@ -1,7 +1,8 @@
 """The book's scripts, fetched at build time so that its pages need no network.
 
-MathJax and what draws figures with sliders come as npm packages, at pinned versions whose archives
-are checked against a known digest. They are laid under ``_vendor/`` and never committed.
+KaTeX, which sets equations, and what draws figures with sliders come as npm packages, at pinned
+versions whose archives are checked against a known digest. They are laid under ``_vendor/`` and
+never committed.
 """
 
 import base64
@@ -42,12 +43,13 @@ PACKAGES = (
         (("dist/plot.umd.min.js", "_static/plot/plot.umd.min.js"),),
     ),
     Package(
-        "mathjax",
-        "3.2.2",
-        "sha512-Bt+SSVU8eBG27zChVewOicYs7Xsdt40qm4+UpHyX7k0/O9NliPc+x77k1/FEsPsjKPZGJvtRZM1vO+geW0OhGw==",
+        "katex",
+        "0.16.22",
+        "sha512-XCHRdUw4lf3SKBaJe4EvgqIuWwkPSo9XoeO8GjQW94Bp7TWv9hNhzZjZ+OH9yf1UmLygb7DIT5GSFQiyt16zYg==",
         (
-            ("es5/tex-mml-chtml.js", "_static/mathjax/tex-mml-chtml.js"),
-            ("es5/output/chtml/fonts/woff-v2", "_static/mathjax/output/chtml/fonts/woff-v2"),
+            ("dist/katex.min.js", "_static/katex/katex.min.js"),
+            ("dist/katex.min.css", "_static/katex/katex.min.css"),
+            ("dist/fonts", "_static/katex/fonts"),
         ),
     ),
 )
@@ -56,8 +58,17 @@ PUBLIC = "https://cdn.jsdelivr.net/npm"
 """Where a page finds the scripts that could not be fetched."""
 PLOTS = PACKAGES[:2]
 """What draws figures with sliders, in the order in which it is loaded."""
+EQUATIONS = PACKAGES[2]
 STAMP = "packages.json"
-FONTS = {".woff", ".woff2"}
+FONTS = {".woff2"}
+
+
+def address(folder: Path, package: Package, file: int = 0) -> str:
+    """Return where a page finds a file of a package: beside it, or else in public."""
+    source, place = package.files[file]
+    if (folder / place).is_file():
+        return place.removeprefix("_static/")
+    return f"{PUBLIC}/{package.name}@{package.version}/{source}"
 
 
 class UnreachableError(SoftgripError, OSError):

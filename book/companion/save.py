@@ -1,5 +1,6 @@
 """Exhibits as files that are the same, to the bit, from run to run; and their numbers as CSV."""
 
+import re
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
@@ -96,12 +97,21 @@ def numbers(figure: Figure) -> pd.DataFrame:
     return pd.concat(rows, ignore_index=True) if rows else pd.DataFrame()
 
 
+PLACES = re.compile(rb'(?<= [dxy]=")[^"]*')
+FINE = re.compile(rb"-?\d+\.\d{3,}")
+"""A number of an SVG with more digits than anyone sees: one unit is a 72nd of an inch."""
+
+
+def _rounded(places: re.Match[bytes]) -> bytes:
+    return FINE.sub(lambda n: f"{float(n[0]):.2f}".rstrip("0").rstrip(".").encode(), places[0])
+
+
 def svg(figure: Figure) -> bytes:
     """Return a figure as SVG, without the date that would make each one another."""
     file = BytesIO()
     with style():
         figure.savefig(file, format="svg", metadata={"Date": None, "Creator": None})
-    return file.getvalue()
+    return PLACES.sub(_rounded, file.getvalue())
 
 
 def save(exhibit: Exhibit, folder: Path) -> Made:

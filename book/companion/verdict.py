@@ -34,6 +34,7 @@ from book.companion.claims import (
     resolved,
     sources,
 )
+from book.companion.judged import judged
 from book.companion.printed import Printed, Spread, carried
 from softgrip.errors import DataFileError
 from softgrip.reads import remembered
@@ -255,6 +256,9 @@ def judge(claim: Claim) -> Entry:
         DataFileError: If a result names no function, or one that does not exist, or the claim's
             basis is not what its other fields say.
     """
+    kept: Entry | None = judged(claim.chapter, claim.id)
+    if kept and kept.claim == claim:
+        return kept
     if not claim.function:
         if claim.basis is not Basis.NONE or claim.nature == "result":
             raise DataFileError(claim.id, expected="a function that recomputes it", got="none")
@@ -262,11 +266,11 @@ def judge(claim: Claim) -> Entry:
     function = _function(claim)
     _check(claim, function)
     stated, assume = resolved(claim.arguments), resolved(claim.assume)
-    judged = stated | assume if claim.basis is Basis.ASSUMPTION else stated
-    spread = carried(function, judged)
+    inputs = stated | assume if claim.basis is Basis.ASSUMPTION else stated
+    spread = carried(function, inputs)
     band = tuple(
-        Case(", ".join(map(str, inputs.values())), carried(function, judged | inputs))
-        for inputs in (map(resolved, claim.band.inputs) if claim.band else ())
+        Case(", ".join(map(str, case.values())), carried(function, inputs | case))
+        for case in (map(resolved, claim.band.inputs) if claim.band else ())
     )
     assumed = assume and claim.basis is not Basis.ASSUMPTION
     named = assumptions(claim.chapter).get(claim.assumption)
@@ -319,9 +323,9 @@ def yields(entries: Collection[Entry]) -> list[Yield]:
         if entry.basis is Basis.ASSUMPTION:
             found.setdefault(entry.claim.assumption, []).append(entry)
     result = []
-    for judged in found.values():
-        if (assumption := judged[0].assumption) is not None:
-            free = [e for e in judged if e.claim.id not in assumption.fitted_to]
+    for own in found.values():
+        if (assumption := own[0].assumption) is not None:
+            free = [e for e in own if e.claim.id not in assumption.fitted_to]
             count = Counter(entry.outcome for entry in free)
             met = count[Outcome.REPRODUCED], count[Outcome.CLOSE]
             result.append(Yield(assumption, len(assumption.fitted_to), *met, len(free)))

@@ -33,7 +33,6 @@ class Visit:
         self.page.on("request", lambda request: self.requests.append(request.url))
         self.page.on("requestfailed", lambda request: self._complain(f"missing: {request.url}"))
         self.page.goto(file.as_uri())
-        self.page.evaluate("window.MathJax ? MathJax.startup.promise.then(() => null) : null")
         self.page.wait_for_timeout(200)  # for what loads behind: fonts, the theme's own scripts
 
     def _console(self, message):
@@ -92,8 +91,8 @@ def seen(html, browser):
                 {urlsplit(url).scheme for url in visit.requests},
                 visit.complaints,
                 page.locator(".math").count(),
-                page.locator(".math mjx-container").count(),
-                page.locator("mjx-merror").count(),
+                page.locator(".math .katex").count(),
+                page.locator(".katex-error").count(),
                 widths,
             )
 

@@ -56,7 +56,7 @@ def test_a_kernel_that_is_killed_has_recorded_its_cells(tmp_path, root):
 
 def test_files_that_a_thread_opens_meanwhile_do_no_harm(tmp_path, monkeypatch):
     hooks = []
-    monkeypatch.setattr(tracing, "listen", lambda note, *_: hooks.append(note))
+    monkeypatch.setattr(tracing.reads, "listen", lambda note, *_: hooks.append(note))
     monkeypatch.setattr(tracing.atexit, "register", hooks.append)
     monkeypatch.setattr(tracing, "get_ipython", lambda: None)
     tracing.record(str(tmp_path / "t.json"))

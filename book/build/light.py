@@ -1,0 +1,59 @@
+"""What a page loads: no icon, index or script that it has no use for.
+
+The theme has each page load all 2,000 icons of its font as a script (1.5 MB), and the index of the
+search, which only the page of the search reads.
+"""
+
+import re
+from pathlib import Path
+from typing import Any
+
+from sphinx.application import Sphinx
+
+ICONS = "_static/scripts/fontawesome.js"
+ICON = re.compile(r'"?([\w-]+)"?:\[\d+,\d+,\[[^\]]*\],"[0-9a-f]*",(?:"[^"]*"|\[[^\]]*\])\],?')
+"""An icon in the theme's script: width, height, other names, code and outline, by its name."""
+USED = re.compile(r"\bfa-([a-z0-9-]+)")
+SEARCH = re.compile(
+    r'\s*<script src="[^"]*(?:searchtools|language_data|searchindex)\.js"></script>'
+)
+
+
+def with_icons(script: str, names: set[str]) -> str:
+    """Return the script of icons with those alone that are named.
+
+    >>> with_icons('a={sun:[5,5,[],"f1","M0"],"no-sun":[5,5,["x"],"f2",["M1","M2"]]}', {"sun"})
+    'a={sun:[5,5,[],"f1","M0"],}'
+    """
+
+    def kept(found: re.Match[str]) -> str:
+        own = {found[1], *re.findall(r'"([a-z-]+)"', found[0].partition("]")[0])}
+        return found[0] if own & names else ""
+
+    return ICON.sub(kept, script)
+
+
+def without_search(head: str) -> str:
+    """Return the head of a page without the scripts of the search."""
+    return SEARCH.sub("", head)
+
+
+def offer(_app: Sphinx, _page: str, _template: str, context: dict[str, Any], _tree: Any) -> None:
+    """Give the template of pages what lightens their heads."""
+    context["without_search"] = without_search
+
+
+def drop_icons(app: Sphinx, error: Exception | None) -> None:
+    """Leave the icons that a page or a script of the theme names."""
+    script = Path(app.outdir) / ICONS
+    if error or not script.is_file():
+        return
+    others = [*Path(app.outdir).glob("*.html"), *script.parent.glob("*theme.js")]
+    names = {name for file in others for name in USED.findall(file.read_text(encoding="utf-8"))}
+    script.write_text(with_icons(script.read_text(encoding="utf-8"), names), encoding="utf-8")
+
+
+def setup(app: Sphinx) -> None:
+    """Connect both to the stages of a build."""
+    app.connect("html-page-context", offer)
+    app.connect("build-finished", drop_icons)
