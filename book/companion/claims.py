@@ -300,7 +300,12 @@ def claim_of(chapter: int, pattern: str, key: object = "") -> Claim:
     return known[name]
 
 
-def _anywhere(id: str) -> Claim:
+def claim_by_id(id: str) -> Claim:
+    """Return a claim of any chapter.
+
+    Raises:
+        UnknownNameError: If there is none of this id.
+    """
     # The file of the chapter that the id names comes first: a figure that shows what is printed
     # then has read that file alone.
     for _, path in sorted(_files().items(), key=lambda file: f"{file[0]}." not in id):
@@ -311,7 +316,7 @@ def _anywhere(id: str) -> Claim:
 
 def approximate(claim: Claim) -> bool:
     """Tell whether a claim's print, or one that it stands on, is printed with a word like about."""
-    return "~" in {claim.relation, *(_anywhere(id).relation for id in claim.stands_on)}
+    return "~" in {claim.relation, *(claim_by_id(id).relation for id in claim.stands_on)}
 
 
 def printed_text(id: str) -> str:
@@ -323,12 +328,12 @@ def printed_text(id: str) -> str:
     >>> printed_text("5.2-materials")
     '10'
     """
-    return _anywhere(id).printed
+    return claim_by_id(id).printed
 
 
 def printed(id: str) -> Printed:
     """Return what a claim of any chapter prints, as a number; errors as for `printed_text`."""
-    claim = _anywhere(id)
+    claim = claim_by_id(id)
     return Printed(claim.printed, exact=claim.exact)
 
 
