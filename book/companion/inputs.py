@@ -147,15 +147,10 @@ def _put(
     return item
 
 
-def with_inputs(claim: Claim, values: Mapping[str, Any]) -> Claim:
-    """Return a claim with the values of inputs in the place of what is stated.
+def with_inputs(claim: Claim, values: Mapping[str, float]) -> Claim:
+    """Return a claim with the values of inputs, by symbol, in the place of what is stated.
 
-    They are exact: nobody has rounded them. So are they where the claim is held against one. What
-    an input is in a default of the recomputation becomes an argument.
-
-    Args:
-        claim: As stated.
-        values: By symbol, in the unit of the print.
+    They are exact: nobody has rounded them. So are they where the claim is held against one.
     """
     named: dict[str, Any] = {}
     typed: dict[tuple[str, float], Any] = {}
@@ -163,19 +158,29 @@ def with_inputs(claim: Claim, values: Mapping[str, Any]) -> Claim:
         one = input_of(symbol)
         named |= {f"@{place}": value for place in one.places}
         typed |= {(name, one.stated): value for name in one.arguments}
+    found = replaced(claim, named, typed)
+    lent = named.get(f"@{claim.print_of}")
+    return found if lent is None else replace(found, printed=repr(lent), exact=True, print_of="")
+
+
+def replaced(
+    claim: Claim, named: Mapping[str, Any], typed: Mapping[tuple[str, float], Any]
+) -> Claim:
+    """Return a claim with others of its arguments.
+
+    Args:
+        claim: As stated. What is replaced in a default of its recomputation becomes an argument.
+        named: By ``@`` and the id that the argument names.
+        typed: By the argument's name, as of `Input.arguments`, and the number that it holds.
+    """
 
     def put(arguments: Mapping[str, Any]) -> dict[str, Any]:
         return {name: _put(item, name, named, typed) for name, item in arguments.items()}
 
     parameters = signature(recomputation(claim)).parameters
     left = {name: p.default for name, p in parameters.items() if name not in claim.arguments}
-    found = replace(
-        claim,
-        arguments=put(claim.arguments) | {n: v for n, v in put(left).items() if v != left[n]},
-        assume=put(claim.assume),
-    )
-    lent = named.get(f"@{claim.print_of}")
-    return found if lent is None else replace(found, printed=repr(lent), exact=True, print_of="")
+    arguments = put(claim.arguments) | {n: v for n, v in put(left).items() if v != left[n]}
+    return replace(claim, arguments=arguments, assume=put(claim.assume))
 
 
 @remembered

@@ -6,7 +6,7 @@ outcome, are not swept again.
 """
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -104,6 +104,21 @@ def _stated(id: str) -> Entry:
     return rejudged(_unswept(claim_by_id(id)))
 
 
+def judged_again(values: Mapping[str, float], claims: Collection[Claim]) -> tuple[Change, ...]:
+    """Judge claims with other values of inputs, but for those that print one of these.
+
+    Args:
+        values: By symbol, in the unit of the print.
+        claims: As stated.
+    """
+    places = {place for symbol in values for place in input_of(symbol).places}
+    return tuple(
+        Change(_stated(claim.id), rejudged(_unswept(with_inputs(claim, values))))
+        for claim in claims
+        if claim.id not in places
+    )
+
+
 def what_if(**changed: Any) -> WhatIf:
     """Judge all claims that hang on inputs again, with other values for these.
 
@@ -124,13 +139,8 @@ def what_if(**changed: Any) -> WhatIf:
     """
     given = {symbol: input_of(symbol).value(value) for symbol, value in changed.items()}
     values = {s: value for s, value in given.items() if value != input_of(s).stated}
-    places = {place for symbol in values for place in input_of(symbol).places}
     hanging = {claim.id: claim for symbol in values for claim in reached(symbol)}
     outcomes = {id: Outcome(row["outcome"]) for id, row in expected().items()}
-    changes = tuple(
-        Change(_stated(id), rejudged(_unswept(with_inputs(hanging[id], values))))
-        for id in outcomes
-        if id in hanging and id not in places
-    )
+    changes = judged_again(values, [hanging[id] for id in outcomes if id in hanging])
     now = outcomes | {change.before.claim.id: change.after.outcome for change in changes}
     return WhatIf(values, changes, Counter(outcomes.values()), Counter(now.values()))
