@@ -34,6 +34,8 @@ def _number(value: float | None) -> str:
 
 
 def _range(low: float, high: float) -> str:
+    if low != low:
+        return "no number"
     first, last = _number(low), _number(high)
     return first if first == last else f"{first} to {last}"
 

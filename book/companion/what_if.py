@@ -8,6 +8,7 @@ outcome, are not swept again.
 from collections import Counter
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
+from html import escape
 from typing import Any
 
 import pandas as pd
@@ -68,7 +69,8 @@ class WhatIf:
         """Return those that moved, then those that shifted, as they are shown."""
         return pd.DataFrame(
             {
-                "claim": before.claim.id,
+                "claim": f'<a href="ledger.html#claim-{before.claim.id}">'
+                f"{escape(before.claim.what)}</a> <small>{escape(before.claim.where)}</small>",
                 "printed": printed_cell(before.claim),
                 "before": range_cell(before),
                 "now": range_cell(after),
@@ -86,7 +88,9 @@ class WhatIf:
             for one in [input_of(name)]
         )
         counts = " ".join(
-            chip(found, f"{self.before[found]} → {self.after[found]} {found}") for found in Outcome
+            chip(found, f"{' → '.join(map(str, dict.fromkeys(both)))} {found}")
+            for found in Outcome
+            for both in [(self.before[found], self.after[found])]
         )
         words = (
             f"{changed or 'nothing changed'}: of {len(self.changes)} claims that hang on it, "

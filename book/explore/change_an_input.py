@@ -20,7 +20,8 @@ from book.explore.page import control, own_scripts
 from book.explore.sliders import Range
 from softgrip.reads import remembered
 
-NAME = "change-an-input"
+NAME = "inputs"
+"""Id of the figure; the page's name is that of its heading."""
 SCRIPT = Path(__file__).with_name("what_if.js")
 TENTH = 0.1
 """Of the stated value: by how much each input is changed, to compare what they move."""
@@ -67,7 +68,8 @@ def show_sliders() -> Html:
     head = "" if os.environ.get(MODE_VARIABLE) == "static" else own_scripts()
     return Html(
         f'{head}<figure class="what-if explorer" id="{NAME}">{_controls()}'
-        '<p class="told" role="status"></p><ul class="counts"></ul><div class="more">'
+        '<div class="strip"><p class="told" role="status"></p><ul class="counts"></ul></div>'
+        '<div class="more">'
         '<button type="button">reset</button>'
         '<details><summary>as code</summary><code class="call"></code></details>'
         f'<a class="link" href="#{NAME}">link to this state</a></div>'

@@ -13,7 +13,7 @@ from typing import Any
 import casadi as ca
 
 from book.companion.chips import printed_cell
-from book.companion.claims import Basis, Claim, claim_by_id, printed, resolved
+from book.companion.claims import Basis, Claim, claim_by_id, printed, read_claims, resolved
 from book.companion.inputs import inputs, reached, replaced
 from book.companion.printed import CORNERS_UP_TO, Printed, with_rounded_defaults
 from book.companion.verdict import CLOSE, may_be_close, recomputation, settled, unprinted
@@ -198,10 +198,10 @@ def page_claims() -> PageClaims:
     moving = {k for law in found for k in law.moved_by}
     held = {law.claim.print_of for law in found}
     symbols = tuple(s for k, s in enumerate(known) if k in moving or held & {*inputs()[s].places})
-    own = {claim.id: claim for symbol in symbols for claim in reached(symbol)}
-    laws = {id: claim_law(claim, symbols) for id, claim in own.items()}
+    own = {claim.id for symbol in symbols for claim in reached(symbol)}
+    laws = [(claim, claim_law(claim, symbols)) for claim in read_claims() if claim.id in own]
     return PageClaims(
         symbols,
-        tuple(law for law in laws.values() if law),
-        tuple(own[id] for id, law in laws.items() if not law),
+        tuple(law for _, law in laws if law),
+        tuple(claim for claim, law in laws if not law),
     )

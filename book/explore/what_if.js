@@ -79,7 +79,11 @@ const softgripWhatIf = (it) => {
   function row({ claim, before, now }) {
     const verdict = made("td", chip(before.outcome));
     if (now.outcome !== before.outcome) verdict.append(" \u2192 ", chip(now.outcome));
-    const cells = [claim.printed, range(before), range(now)].map((text) => made("td.number", text));
+    const cells = Object.entries({ printed: claim.printed, before: range(before), now: range(now) }).map(([name, text]) => {
+      const cell = made("td.number", text);
+      cell.dataset.name = name; // where the table has no columns
+      return cell;
+    });
     return made("tr", made("td", link(claim.id, claim.what), made("small", ` ${claim.where}`)), ...cells, verdict);
   }
   function table(rows) {
@@ -92,9 +96,9 @@ const softgripWhatIf = (it) => {
     const given = now.map((value, k) => (value === it.sliders[k].begin ? undefined : value));
     const { moved, shifted, still, left } = changes(given);
     const part = (name) => root.querySelector(`.${name}`);
-    root.querySelectorAll(".control").forEach((one, k) => one.classList.toggle("changed", given[k] !== undefined));
+    it.sliders.forEach((s, k) => root.querySelector(`[name="${s.name}"]`).parentElement.classList.toggle("changed", given[k] !== undefined));
     part("told").textContent = given.some((value) => value !== undefined)
-      ? `${counted(moved.length, "verdict")} moved, and ${counted(shifted.length, "number")} without a verdict.`
+      ? `${counted(moved.length, "verdict")} moved; ${counted(shifted.length, "more number")} changed.`
       : "All inputs are as stated.";
     part("counts").replaceChildren(...Object.entries(it.counts).map(([outcome, count]) => {
       const come = moved.filter((c) => c.now.outcome === outcome).length - moved.filter((c) => c.before.outcome === outcome).length;

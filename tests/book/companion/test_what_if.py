@@ -174,7 +174,7 @@ def test_counts_are_those_of_the_ledger_but_for_what_moved():
 def test_a_result_tells_itself():
     text = what_if(F_pad=0.11)._repr_markdown_()
     assert "F_pad = 0.11 N (stated: 0.1)" in text
-    assert "2.2-proportional-cylinder-fem" in text
+    assert "ledger.html#claim-2.2-proportional-cylinder-fem" in text
     assert what_if()._repr_markdown_().startswith("nothing changed: of 0 claims")
 
 
