@@ -16,6 +16,7 @@ import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal, TypeVar, get_args
@@ -257,7 +258,12 @@ def _chapter(path: Path) -> int:
 
 
 def _files() -> dict[int, Path]:
-    return {_chapter(path): path for path in sorted((data_folder() / "claims").glob("chapter_*"))}
+    return _files_in(data_folder() / "claims")
+
+
+@cache
+def _files_in(folder: Path) -> dict[int, Path]:
+    return {_chapter(path): path for path in sorted(folder.glob("chapter_*"))}
 
 
 def read_claims(chapter: int | None = None) -> list[Claim]:

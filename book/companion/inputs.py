@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from inspect import signature
 from math import nan
+from types import MappingProxyType
 from typing import Any
 
 from book.companion.claims import Claim, printed_text, read_claims
@@ -112,7 +113,7 @@ def _input(row: Mapping[str, str]) -> Input:
 @remembered
 def inputs() -> Mapping[str, Input]:
     """Return all inputs by symbol."""
-    return {row["symbol"]: _input(row) for row in data_rows(FILE)}
+    return MappingProxyType({row["symbol"]: _input(row) for row in data_rows(FILE)})
 
 
 def input_of(symbol: str) -> Input:

@@ -1,6 +1,6 @@
 // The claims of the ledger as a page judges them: the rule of book/companion/printed.py and
 // verdict.py, with what book/explore/claim_laws.py wrote, and how the page shows what moved.
-const softgripWhatIf = (it) => {
+var softgripWhatIf = (it) => {
   // The value, and the least and largest that rounding allows: `carried` of printed.py.
   function carried(law, x, half) {
     const out = [0], count = half.filter((h) => h).length;
