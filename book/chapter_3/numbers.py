@@ -35,7 +35,7 @@ from softgrip.arrays import Number, largest_of, least_of
 from softgrip.control.lqr import Weights, linear_settling_time
 from softgrip.control.lqr import step_response as lqr_response
 from softgrip.control.step_metrics import settling_time
-from softgrip.dynamics.second_order import SecondOrder, step_response
+from softgrip.dynamics.second_order import SecondOrder, step_response, upper_pole
 from softgrip.logs.steps import judge_step_log
 from softgrip.provenance import data_file
 from softgrip.units import DEG, MM, MPa
@@ -287,10 +287,9 @@ def scaled_frequency(
     return frequency * (stiffer / heavier) ** 0.5
 
 
-def pole(part: str, frequency: float, damping_ratio: float) -> float:
+def pole(part: str, frequency: Number, damping_ratio: Number) -> Number:
     """Return the real or the imaginary part of the upper pole, rad/s."""
-    rate = SecondOrder(frequency, damping_ratio).rates[0]
-    return float(-rate.real if part == "real" else abs(rate.imag))
+    return upper_pole(frequency, damping_ratio)[("real", "imaginary").index(part)]
 
 
 def pole_frequency(real: float, imaginary: float) -> float:

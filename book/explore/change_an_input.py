@@ -22,6 +22,7 @@ from softgrip.reads import remembered
 
 NAME = "inputs"
 """Id of the figure; the page's name is that of its heading."""
+LABEL = "Inputs as sliders, and the verdicts that they move"
 SCRIPT = Path(__file__).with_name("what_if.js")
 TENTH = 0.1
 """Of the stated value: by how much each input is changed, to compare what they move."""
@@ -67,7 +68,7 @@ def show_sliders() -> Html:
     """Show the sliders, and what they move."""
     head = "" if os.environ.get(MODE_VARIABLE) == "static" else own_scripts()
     return Html(
-        f'{head}<figure class="what-if explorer" id="{NAME}">{_controls()}'
+        f'{head}<figure class="what-if explorer" id="{NAME}" aria-label="{LABEL}">{_controls()}'
         '<div class="strip"><p class="told" role="status"></p><ul class="counts"></ul></div>'
         '<div class="more">'
         '<button type="button">reset</button>'

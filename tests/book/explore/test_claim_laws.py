@@ -185,7 +185,6 @@ def test_a_broken_law_is_seen_on_the_page(monkeypatch):
 def test_what_cannot_be_translated_searches_simulates_or_is_complex():
     assert {claim.function for claim in page_claims().left} == {
         "optimum",
-        "pole",
         "projection",
         "outside",
         "inverse_gap",
