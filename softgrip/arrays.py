@@ -1,6 +1,7 @@
 """Array types, numbers from outside, and the checks that the material laws share."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from functools import reduce
 from typing import Any, TypeVar
 
 import numpy as np
@@ -34,6 +35,20 @@ def chosen(condition: Number, one: Number, other: Number) -> Number:
     if isinstance(condition, bool | np.bool | float):
         return one if condition else other  # many times as fast
     return np.where(condition, one, other)
+
+
+def largest_of(values: Iterable[Number]) -> Number:
+    """Return the largest: `max`, for symbols too.
+
+    >>> largest_of([1.0, 3.0, 2.0])
+    3.0
+    """
+    return reduce(lambda most, value: chosen(value > most, value, most), values)
+
+
+def least_of(values: Iterable[Number]) -> Number:
+    """Return the least: `min`, for symbols too."""
+    return reduce(lambda least, value: chosen(value < least, value, least), values)
 
 
 LARGEST_STRAIN = 20.0

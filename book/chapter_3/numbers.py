@@ -1,7 +1,7 @@
 """Recomputation of the numbers printed in Chapter 3."""
 
 from collections.abc import Mapping, Sequence
-from math import hypot, nan, pi, sqrt, tanh
+from math import hypot, nan, pi, prod, tanh
 
 import numpy as np
 from scipy.optimize import brentq
@@ -31,10 +31,11 @@ from softgrip.actuator.frequency import (
 )
 from softgrip.actuator.printed import table_3_2, table_3_3
 from softgrip.actuator.section import Section, chamber_area, torque
+from softgrip.arrays import Number, largest_of, least_of
 from softgrip.control.lqr import Weights, linear_settling_time
 from softgrip.control.lqr import step_response as lqr_response
 from softgrip.control.step_metrics import settling_time
-from softgrip.dynamics.second_order import SecondOrder, step_response
+from softgrip.dynamics.second_order import SecondOrder, step_response, upper_pole
 from softgrip.logs.steps import judge_step_log
 from softgrip.provenance import data_file
 from softgrip.units import DEG, MM, MPa
@@ -53,7 +54,7 @@ def _section(sizes: Mapping[str, float]) -> Section:
 
 def section_torque(
     pressure: float, section: Mapping[str, float], wall_pulls: bool = False
-) -> float:
+) -> Number:
     """Return the torque of a section, N m.
 
     As Eq. (3.4) is printed, the moments of chamber and wall are added; if the wall pulls, the
@@ -65,9 +66,9 @@ def section_torque(
         wall_pulls: How the moments are put together.
     """
     found = _section(section)
-    subtracted = float(torque(found, pressure * MPa))
+    subtracted = torque(found, pressure * MPa)
     chamber = pressure * MPa * chamber_area(found) * (found.top - found.wall) / 2
-    return subtracted if wall_pulls else float(2 * chamber - subtracted)
+    return subtracted if wall_pulls else 2 * chamber - subtracted
 
 
 def objective_sum(
@@ -77,7 +78,7 @@ def objective_sum(
     modulus: float,
     torque_scale: float,
     angle_scale: float,
-) -> float:
+) -> Number:
     """Return the sum of Eq. (3.20) for a section, mm by name; MPa, N m, and parts of pi."""
     problem = DesignProblem(
         pressure * MPa,
@@ -86,7 +87,7 @@ def objective_sum(
         torque_scale=torque_scale,
         angle_scale=angle_scale * pi,
     )
-    return float(objective(problem, _section(section)))
+    return objective(problem, _section(section))
 
 
 def angle_left(
@@ -110,7 +111,7 @@ def sum_of_measured(
     angle_scale: float,
     share: float = 1.0,
     weaker: Mapping[str, float] | None = None,
-) -> float:
+) -> Number:
     """Return the sum of Eq. (3.20) from a measured torque, N m, and an angle, deg.
 
     Args:
@@ -125,26 +126,28 @@ def sum_of_measured(
 
 def width_torque_ratio(
     width: float, of_width: float, top: float, bottom: float, wall: float
-) -> float:
+) -> Number:
     """Return the torque of a section over that of one of another width, by Eq. (3.4); mm."""
     own, other = (
         _section({"top": top, "bottom": bottom, "width": w, "wall": wall})
         for w in (width, of_width)
     )
-    return float(torque(own, 1.0) / torque(other, 1.0))
+    return torque(own, 1.0) / torque(other, 1.0)
 
 
-def height_limit(end: str, stated: float, tops: Sequence[float], bottoms: Sequence[float]) -> float:
+def height_limit(
+    end: str, stated: float, tops: Sequence[float], bottoms: Sequence[float]
+) -> Number:
     """Return the least or largest height that a + b of some sections needs, in their unit.
 
     >>> height_limit("largest", stated=25, tops=[20, 22], bottoms=[4, 4])
     26
     """
     heights = [stated, *(top + bottom for top, bottom in zip(tops, bottoms, strict=True))]
-    return min(heights) if end == "least" else max(heights)
+    return least_of(heights) if end == "least" else largest_of(heights)
 
 
-def surpassing(own: Sequence[float], others: Sequence[Sequence[float]]) -> float:
+def surpassing(own: Sequence[float], others: Sequence[Sequence[float]]) -> Number:
     """Count the designs that have more of everything than one has.
 
     Args:
@@ -154,16 +157,16 @@ def surpassing(own: Sequence[float], others: Sequence[Sequence[float]]) -> float
     >>> surpassing([2.0, 3.0], others=[[2.5, 2.0], [2.5, 3.5]])
     1
     """
-    return sum(all(b > a for a, b in zip(own, other, strict=True)) for other in others)
+    return sum(prod(b > a for a, b in zip(own, other, strict=True)) for other in others)
 
 
-def off_integers(sizes: Sequence[float]) -> float:
+def off_integers(sizes: Sequence[float]) -> Number:
     """Return the largest distance of a number from the nearest integer.
 
-    >>> off_integers([4.0, 1.75])
+    >>> float(off_integers([4.0, 1.75]))
     0.25
     """
-    return max(abs(size - round(size)) for size in sizes)
+    return largest_of(abs(size - np.floor(size + 0.5)) for size in sizes)
 
 
 def optimum(
@@ -209,7 +212,7 @@ def stepped_frequency(row: str) -> float:
 
 def rubber_weight(
     section: Mapping[str, float], length: float, density: float, filled: float = 0.0
-) -> float:
+) -> Number:
     """Return the weight of the rubber of a finger, N, with a part of the chamber filled.
 
     Args:
@@ -219,8 +222,8 @@ def rubber_weight(
         filled: Part of the chamber.
     """
     found = _section(section)
-    inside = filled * density * length * MM * float(chamber_area(found))
-    return G * (float(rubber_mass(found, length * MM, density)) + inside)
+    inside = filled * density * length * MM * chamber_area(found)
+    return G * (rubber_mass(found, length * MM, density) + inside)
 
 
 def frequency_at(
@@ -232,7 +235,7 @@ def frequency_at(
     modulus: float,
     length: float,
     newtons: bool = False,
-) -> float:
+) -> Number:
     """Return omega_n of Eq. (3.16), rad/s.
 
     Args:
@@ -245,7 +248,7 @@ def frequency_at(
     """
     sizes = _section({"top": top, "bottom": bottom, "width": width, "wall": 0.0})
     finger = Finger(sizes, length * MM, modulus * MPa, power)
-    return float(natural_frequency(finger, mass / G if newtons else mass))
+    return natural_frequency(finger, mass / G if newtons else mass)
 
 
 def product_frequency(
@@ -254,7 +257,7 @@ def product_frequency(
     length: float,
     power: float = SCRIPT_POWER,
     mass: float = SCRIPT_MASS,
-) -> float:
+) -> Number:
     """Return the omega_n to which Eq. (3.19) gives a section's ``E w (a + b)**(n + 2)``, rad/s.
 
     Args:
@@ -265,7 +268,7 @@ def product_frequency(
         mass: M, kg.
     """
     made = stiffness_product(_section(section), modulus * MPa, power)
-    return float(sqrt(made / stiffness_product_for(1.0, mass, power, length * MM)))
+    return (made / stiffness_product_for(1.0, mass, power, length * MM)) ** 0.5
 
 
 def scaled_frequency(
@@ -273,7 +276,7 @@ def scaled_frequency(
     mass: tuple[float, float],
     width: tuple[float, float] = (1.0, 1.0),
     modulus: tuple[float, float] = (1.0, 1.0),
-) -> float:
+) -> Number:
     """Return omega_n of Eq. (3.16) from that of a finger of the same height, length and n.
 
     Args:
@@ -281,13 +284,12 @@ def scaled_frequency(
         mass, width, modulus: M, w and E of this one and of the other.
     """
     stiffer, heavier = modulus[0] / modulus[1] * width[0] / width[1], mass[0] / mass[1]
-    return frequency * sqrt(stiffer / heavier)
+    return frequency * (stiffer / heavier) ** 0.5
 
 
-def pole(part: str, frequency: float, damping_ratio: float) -> float:
+def pole(part: str, frequency: Number, damping_ratio: Number) -> Number:
     """Return the real or the imaginary part of the upper pole, rad/s."""
-    rate = SecondOrder(frequency, damping_ratio).rates[0]
-    return float(-rate.real if part == "real" else abs(rate.imag))
+    return upper_pole(frequency, damping_ratio)[("real", "imaginary").index(part)]
 
 
 def pole_frequency(real: float, imaginary: float) -> float:

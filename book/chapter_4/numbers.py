@@ -13,6 +13,7 @@ from book.chapter_4.pid_gains import pid_gains
 from book.chapter_4.pushed import pushed
 from book.companion.choices import choice
 from book.companion.verdict import simulated
+from softgrip.arrays import Number, chosen
 from softgrip.control.pid import Gains, pid_state_space
 from softgrip.control.step_metrics import settling_time
 from softgrip.dynamics.second_order import SecondOrder, full_state_space
@@ -28,7 +29,7 @@ Parameter = Literal["area", "lead", "motor speed"]
 
 def fastest(
     name: Parameter, areas: Sequence[float], leads: Sequence[float], speeds: Sequence[float]
-) -> float:
+) -> Number:
     """Return a parameter of the set with the largest pressure rate, Eq. (4.5).
 
     Args:
@@ -38,10 +39,16 @@ def fastest(
     >>> fastest("lead", areas=[6e-4], leads=[0.002, 0.008], speeds=[1.65, 3.3])
     0.008
     """
-    area, lead, speed = max(
-        product(areas, leads, speeds), key=lambda s: PumpRun(Pump(s[0], s[1]), s[2] * REV).flow
-    )
-    return {"area": area, "lead": lead, "motor speed": speed}[name]
+    which = ("area", "lead", "motor speed").index(name)
+    rates = [
+        (PumpRun(Pump(area, lead), speed * REV).flow, (area, lead, speed)[which])
+        for area, lead, speed in product(areas, leads, speeds)
+    ]
+    fastest_rate, best = rates[0]
+    for rate, value in rates[1:]:
+        better = rate > fastest_rate
+        fastest_rate, best = chosen(better, rate, fastest_rate), chosen(better, value, best)
+    return best
 
 
 def rate_ratio(small_area: float, large_area: float, short_lead: float, long_lead: float) -> float:

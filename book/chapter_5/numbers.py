@@ -10,6 +10,7 @@ from book.chapter_5 import step_sweep
 from book.chapter_5.step_models import ANGLES, FINGERS, KINDS, Kind, identified_at, step_test_error
 from book.companion.choices import choice
 from book.companion.claims import claim_of
+from book.companion.relations import mean
 from book.companion.verdict import simulated
 from softgrip.dynamics.consistency import agreement
 from softgrip.materials import ludwick
@@ -119,8 +120,8 @@ def allowed_fit(
     >>> allowed_fit([3.0], [60.0])
     90.0
     """
-    halves = (1 + overshoot) * np.asarray(set_points) / 2
-    return float(np.mean(100 * (1 - np.asarray(errors) / halves)))
+    halves = [(1 + overshoot) * angle / 2 for angle in set_points]
+    return mean([100 * (1 - error / half) for error, half in zip(errors, halves, strict=True)])
 
 
 @simulated

@@ -8,6 +8,7 @@ import numpy as np
 from book.chapter_6 import comparison, filters, results
 from book.chapter_6 import speed as gripper_speed
 from book.companion.verdict import simulated
+from softgrip.arrays import Number
 from softgrip.control.step_metrics import settling_time
 from softgrip.gripper.gripper_loop import GripperRun, noise_gain
 from softgrip.gripper.internal_model import PERIOD, controller_matrices
@@ -127,7 +128,7 @@ def filter_coefficient(
     return float((top if part == "num" else low)[::-1][int(power)])
 
 
-def natural_frequency(stiffness: float) -> float:
+def natural_frequency(stiffness: Number) -> Number:
     """Return the natural frequency of an element of Eq. (6.26), rad/s."""
     return FingerDynamics(1.0, stiffness, 1.0).natural_frequency
 

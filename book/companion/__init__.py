@@ -8,6 +8,7 @@ from book.companion.chips import (
     show_verdicts,
 )
 from book.companion.show import show
+from book.companion.what_if import what_if
 
 __all__ = [
     "show",
@@ -16,4 +17,5 @@ __all__ = [
     "show_counts",
     "show_errata",
     "show_verdicts",
+    "what_if",
 ]

@@ -34,6 +34,8 @@ def _number(value: float | None) -> str:
 
 
 def _range(low: float, high: float) -> str:
+    if low != low:
+        return "no number"
     first, last = _number(low), _number(high)
     return first if first == last else f"{first} to {last}"
 
@@ -87,21 +89,25 @@ def _remarks(entry: Entry) -> str:
     return f"<details><summary>remarks</summary>{text.strip()}</details>" if text else ""
 
 
-def _print(claim: Claim) -> str:
+def printed_cell(claim: Claim) -> str:
     """Return what is printed, with its bound or its word, and its unit."""
     sign = {"=": "", "~": "about "}.get(claim.relation, f"{claim.relation} ")
     unit = "" if claim.unit == "1" else f" {claim.unit}"
     return html.escape(f"{sign}{claim.printed}{unit}")
 
 
+def range_cell(entry: Entry) -> str:
+    """Return what comes out, as one number where its ends read the same."""
+    return _range(entry.spread.low, entry.spread.high) if entry.spread else ""
+
+
 def _row(entry: Entry) -> str:
-    claim, spread = entry.claim, entry.spread
-    value = _range(spread.low, spread.high) if spread else ""
+    claim = entry.claim
     basis = entry.basis or (claim.nature if claim.nature != "result" else "")
     return (
         f'<tr id="claim-{claim.id}"><td>{html.escape(claim.what)}{_remarks(entry)}</td>'
-        f"<td class='number'>{_print(claim)}</td>"
-        f"<td class='number'>{value}</td>"
+        f"<td class='number'>{printed_cell(claim)}</td>"
+        f"<td class='number'>{range_cell(entry)}</td>"
         f"<td>{chip(entry.outcome, entry.outcome)}</td><td>{basis}</td>"
         f"<td>{told(claim.id)}</td></tr>"
     )
@@ -164,15 +170,15 @@ def _tries(erratum: Erratum, ids: set[str]) -> str:
 
 
 def _erratum(erratum: Erratum, ids: set[str]) -> str:
-    claim, spread = erratum.entry.claim, erratum.entry.spread
+    claim = erratum.entry.claim
     used = _linked(" , ".join(sorted(references(claim.arguments) - {claim.id})), ids).replace(
         " ,", ","
     )
-    value = _range(spread.low, spread.high) if spread else ""
+    value = range_cell(erratum.entry)
     return (
         f'<tr><td><a href="ledger.html#claim-{claim.id}">{html.escape(claim.what)}</a>'
         f" <small>{html.escape(claim.where)}</small></td>"
-        f"<td class='number'>{_print(claim)}</td>"
+        f"<td class='number'>{printed_cell(claim)}</td>"
         f"<td>{value}{f' <small>from {used}</small>' if used else ''}</td>"
         f"<td>{_tries(erratum, ids)}</td></tr>"
     )

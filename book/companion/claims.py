@@ -16,6 +16,7 @@ import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal, TypeVar, get_args
@@ -257,7 +258,12 @@ def _chapter(path: Path) -> int:
 
 
 def _files() -> dict[int, Path]:
-    return {_chapter(path): path for path in sorted((data_folder() / "claims").glob("chapter_*"))}
+    return _files_in(data_folder() / "claims")
+
+
+@cache
+def _files_in(folder: Path) -> dict[int, Path]:
+    return {_chapter(path): path for path in sorted(folder.glob("chapter_*"))}
 
 
 def read_claims(chapter: int | None = None) -> list[Claim]:
@@ -300,7 +306,12 @@ def claim_of(chapter: int, pattern: str, key: object = "") -> Claim:
     return known[name]
 
 
-def _anywhere(id: str) -> Claim:
+def claim_by_id(id: str) -> Claim:
+    """Return a claim of any chapter.
+
+    Raises:
+        UnknownNameError: If there is none of this id.
+    """
     # The file of the chapter that the id names comes first: a figure that shows what is printed
     # then has read that file alone.
     for _, path in sorted(_files().items(), key=lambda file: f"{file[0]}." not in id):
@@ -311,7 +322,7 @@ def _anywhere(id: str) -> Claim:
 
 def approximate(claim: Claim) -> bool:
     """Tell whether a claim's print, or one that it stands on, is printed with a word like about."""
-    return "~" in {claim.relation, *(_anywhere(id).relation for id in claim.stands_on)}
+    return "~" in {claim.relation, *(claim_by_id(id).relation for id in claim.stands_on)}
 
 
 def printed_text(id: str) -> str:
@@ -323,12 +334,12 @@ def printed_text(id: str) -> str:
     >>> printed_text("5.2-materials")
     '10'
     """
-    return _anywhere(id).printed
+    return claim_by_id(id).printed
 
 
 def printed(id: str) -> Printed:
     """Return what a claim of any chapter prints, as a number; errors as for `printed_text`."""
-    claim = _anywhere(id)
+    claim = claim_by_id(id)
     return Printed(claim.printed, exact=claim.exact)
 
 

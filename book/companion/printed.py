@@ -71,6 +71,18 @@ def _moved(item: Any, moves: Iterator[float]) -> Any:
     return item
 
 
+def with_rounded_defaults(
+    function: Callable[..., float], arguments: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return arguments with those of the function's defaults that are printed numbers."""
+    defaults = {
+        name: parameter.default
+        for name, parameter in signature(function).parameters.items()
+        if any(_rounded(parameter.default))
+    }
+    return defaults | dict(arguments)
+
+
 def carried(function: Callable[..., float], arguments: Mapping[str, Any]) -> Spread:
     """Carry the rounding of printed inputs through a recomputation.
 
@@ -87,12 +99,7 @@ def carried(function: Callable[..., float], arguments: Mapping[str, Any]) -> Spr
     >>> f"{spread.low:.5f} {spread.high:.5f}"
     '0.06828 0.06839'
     """
-    defaults = {
-        name: parameter.default
-        for name, parameter in signature(function).parameters.items()
-        if any(_rounded(parameter.default))
-    }
-    given = defaults | dict(arguments)
+    given = with_rounded_defaults(function, arguments)
     count = len(list(_rounded(given)))
 
     def at(moves: Sequence[float]) -> float:

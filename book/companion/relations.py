@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from math import pi
 
 from book.companion.claims import read_claims
+from softgrip.arrays import Number, largest_of, least_of
 
 
 def same(value: float, scale: float = 1.0) -> float:
@@ -40,41 +41,41 @@ def mean(values: Sequence[float]) -> float:
     return sum(values) / len(values)
 
 
-def largest(values: Sequence[float]) -> float:
+def largest(values: Sequence[Number]) -> Number:
     """Return the largest of printed numbers."""
-    return max(values)
+    return largest_of(values)
 
 
-def least(values: Sequence[float]) -> float:
+def least(values: Sequence[Number]) -> Number:
     """Return the least of printed numbers."""
-    return min(values)
+    return least_of(values)
 
 
-def upper_limit(stated: float, reached: Sequence[float]) -> float:
+def upper_limit(stated: Number, reached: Sequence[Number]) -> Number:
     """Return the limit that values need: the stated one, or the largest that lies above it.
 
     >>> upper_limit(5.0, [20.0, 14.4]), upper_limit(24.0, [20.0, 14.4])
     (20.0, 24.0)
     """
-    return max(stated, *reached)
+    return largest_of([stated, *reached])
 
 
-def lower_limit(stated: float, reached: Sequence[float]) -> float:
+def lower_limit(stated: Number, reached: Sequence[Number]) -> Number:
     """Return the limit that values need: the stated one, or the least that lies below it."""
-    return min(stated, *reached)
+    return least_of([stated, *reached])
 
 
-def number_of(values: Sequence[object]) -> float:
+def number_of(values: Sequence[object]) -> Number:
     """Count what is listed in print."""
     return len(values)
 
 
-def change(after: float, before: float) -> float:
+def change(after: float, before: float) -> Number:
     """Return by how many percent ``after`` differs from ``before``, without a sign."""
     return 100 * abs(after / before - 1)
 
 
-def largest_ratio(parts: Sequence[float], wholes: Sequence[float]) -> float:
+def largest_ratio(parts: Sequence[float], wholes: Sequence[float]) -> Number:
     """Return the largest of the ratios of parts to wholes, pair by pair.
 
     >>> largest_ratio([1.0, 3.0], [2.0, 4.0])
@@ -83,7 +84,7 @@ def largest_ratio(parts: Sequence[float], wholes: Sequence[float]) -> float:
     return max(part / whole for part, whole in zip(parts, wholes, strict=True))
 
 
-def largest_change(after: Sequence[float], before: Sequence[float]) -> float:
+def largest_change(after: Sequence[float], before: Sequence[float]) -> Number:
     """Return the largest `change`, pair by pair, in percent.
 
     >>> round(largest_change([2.365, 1.727], [2.174, 1.538]), 2)

@@ -181,21 +181,37 @@ def meets(claim: Claim, low: float, high: float) -> bool | None:
     return holds[0] if holds[0] == holds[1] else None
 
 
-def _outcome(claim: Claim, spread: Spread | None, fitted: bool) -> Outcome:
-    if spread is None or (claim.basis is Basis.RIG and claim.nature != "result"):
+def settled(claim: Claim) -> Outcome | None:
+    """Return the outcome that a claim has whatever comes out of it; None if that decides."""
+    if not claim.function or (claim.basis is Basis.RIG and claim.nature != "result"):
         return Outcome.GIVEN
+    named = assumptions(claim.chapter).get(claim.assumption)
+    fitted = claim.basis is Basis.ASSUMPTION and named is not None and claim.id in named.fitted_to
+    return Outcome.OPEN if claim.basis is Basis.RIG or fitted else None
+
+
+def may_be_close(claim: Claim) -> bool:
+    """Tell whether a claim that its number misses may still be called close."""
+    return claim.relation in ("=", "~") and not claim.exact and claim.basis is not Basis.PRINT
+
+
+def unprinted(claim: Claim) -> bool:
+    """Tell whether inputs that decide a claim are not printed."""
+    return claim.basis in (Basis.AUTHOR, Basis.DATA, Basis.ASSUMPTION) or claim.band is not None
+
+
+def _outcome(claim: Claim, spread: Spread) -> Outcome:
+    if found := settled(claim):
+        return found
     holds = meets(claim, spread.low, spread.high)
-    if claim.basis is Basis.RIG or fitted or holds is None:
+    if holds is None:
         return Outcome.OPEN
     if holds:
         return Outcome.REPRODUCED
     number = float(claim.printed)
-    equal = claim.relation in ("=", "~")
-    may_be_close = equal and not claim.exact and claim.basis is not Basis.PRINT
-    if may_be_close and abs(spread.value - number) <= CLOSE * abs(number):
+    if may_be_close(claim) and abs(spread.value - number) <= CLOSE * abs(number):
         return Outcome.CLOSE
-    unprinted = claim.basis in (Basis.AUTHOR, Basis.DATA, Basis.ASSUMPTION) or claim.band
-    undecided = (unprinted or approximate(claim)) and not claim.regardless
+    undecided = (unprinted(claim) or approximate(claim)) and not claim.regardless
     return Outcome.OPEN if undecided else Outcome.CONTRADICTS
 
 
@@ -208,7 +224,8 @@ def simulated(function: Function) -> Function:
     return function
 
 
-def _function(claim: Claim) -> Callable[..., float]:
+def recomputation(claim: Claim) -> Callable[..., float]:
+    """Return what recomputes a claim that names a function."""
     module = import_module(f"book.chapter_{claim.chapter}.numbers")
     found: Callable[..., float] | None = getattr(
         module, claim.function, getattr(relations, claim.function, None)
@@ -263,8 +280,13 @@ def judge(claim: Claim) -> Entry:
         if claim.basis is not Basis.NONE or claim.nature == "result":
             raise DataFileError(claim.id, expected="a function that recomputes it", got="none")
         return Entry(claim, Outcome.GIVEN)
-    function = _function(claim)
-    _check(claim, function)
+    _check(claim, recomputation(claim))
+    return rejudged(claim)
+
+
+def rejudged(claim: Claim) -> Entry:
+    """Judge a claim, of which one was checked, whose inputs may have been changed since."""
+    function = recomputation(claim)
     stated, assume = resolved(claim.arguments), resolved(claim.assume)
     inputs = stated | assume if claim.basis is Basis.ASSUMPTION else stated
     spread = carried(function, inputs)
@@ -273,11 +295,9 @@ def judge(claim: Claim) -> Entry:
         for case in (map(resolved, claim.band.inputs) if claim.band else ())
     )
     assumed = assume and claim.basis is not Basis.ASSUMPTION
-    named = assumptions(claim.chapter).get(claim.assumption)
-    fitted = claim.basis is Basis.ASSUMPTION and named is not None and claim.id in named.fitted_to
     return Entry(
         claim,
-        _outcome(claim, spread, fitted),
+        _outcome(claim, spread),
         spread,
         band,
         float(function(**stated | assume)) if assumed else None,

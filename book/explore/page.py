@@ -47,7 +47,7 @@ class Explorer:
 
     def _figure(self) -> str:
         controls = "".join(
-            _control(self.name, name, slider) for name, slider in self.sliders.items()
+            control(self.name, name, slider) for name, slider in self.sliders.items()
         )
         if self.plot is None:
             picture = f'<img src="{self.frames[0]}" alt="{html.escape(self.alt)}">'
@@ -88,11 +88,13 @@ class Explorer:
         )
 
 
-def _control(explorer: str, name: str, slider: Slider | Range) -> str:
+def control(explorer: str, name: str, slider: Slider | Range, note: str = "") -> str:
+    """Return a slider with its label, and a note in smaller letters."""
     place = slider.start if isinstance(slider, Slider) else slider.place
     steps = slider.data(name)["steps"]
     return (
-        f'<div class="control"><label for="{explorer}-{name}">{html.escape(slider.label)}</label>'
+        f'<div class="control"><label for="{explorer}-{name}">{html.escape(slider.label)}'
+        f"{f' <small>{html.escape(note)}</small>' if note else ''}</label>"
         f'<output for="{explorer}-{name}"></output>'
         f'<input type="range" id="{explorer}-{name}" name="{name}" min="0" max="{steps}" step="1" '
         f'value="{place}" autocomplete="off"></div>'
@@ -120,9 +122,16 @@ def _swatch(mark: Mark) -> str:
     return f'<svg viewBox="0 0 24 10" aria-hidden="true">{inner}</svg>'
 
 
+def own_scripts() -> str:
+    """Return what moves sliders in a notebook's cell: a page of the book has it from its head."""
+    style = (OWN / "explore.css").read_text(encoding="utf-8")
+    script = (OWN / "explore.js").read_text(encoding="utf-8")
+    return f"<style>{style}</style><script>{script}</script>"
+
+
 @cache
 def _scripts() -> str:
-    """Return what a notebook's cell lacks: a page of the book has it from its head."""
+    """Return the same, and before it what draws."""
     if not all((VENDOR / path).is_file() for path in LIBRARIES):
         raise SoftgripError(
             "what draws the sliders' figures was not fetched yet: `make lab` and `make book` do it"
@@ -133,6 +142,4 @@ def _scripts() -> str:
         f"if(!window.{known}){{const define=undefined;{text}}}"
         for known, text in zip(("d3", "Plot"), texts, strict=True)
     ).replace("</script", "<\\/script")
-    style = (OWN / "explore.css").read_text(encoding="utf-8")
-    script = (OWN / "explore.js").read_text(encoding="utf-8")
-    return f"<style>{style}</style><script>{libraries}</script><script>{script}</script>"
+    return f"<script>{libraries}</script>{own_scripts()}"

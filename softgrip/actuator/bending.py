@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.actuator.section import Section, check_section, torque, wall_stress_ratio
-from softgrip.arrays import Floats, Number, check_positive
+from softgrip.arrays import Floats, Number, check_positive, is_symbol
 from softgrip.errors import InvalidInputError
 from softgrip.units import MM, MPa
 
@@ -42,7 +42,7 @@ class Finger:
 
 def check_power(fractional_power: float) -> None:
     """Raise InvalidInputError unless n is a finite number >= 1, as Section 3.2 has it."""
-    if not 1 <= fractional_power <= LARGEST_POWER:
+    if not is_symbol(fractional_power) and not 1 <= fractional_power <= LARGEST_POWER:
         raise InvalidInputError(
             "fractional_power",
             expected=f"a finite number >= 1, up to {LARGEST_POWER:g}",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, final, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from softgrip.arrays import Floats, check_positive, floats
+from softgrip.arrays import Floats, Number, check_positive, floats, largest_of
 from softgrip.errors import InvalidInputError
 
 if TYPE_CHECKING:
@@ -80,6 +80,27 @@ class SecondOrder:
             )
         natural_frequency = product.real**0.5
         return cls(natural_frequency, total.real / (2 * natural_frequency), gain)
+
+
+def upper_pole(natural_frequency: Number, damping_ratio: Number) -> tuple[Number, Number]:
+    """Return real and imaginary part of the pole that is not below the real axis, rad/s.
+
+    It is minus the first of `SecondOrder.rates`, or minus its conjugate; of symbols too, of which
+    none is complex.
+
+    Args:
+        natural_frequency: rad/s, > 0.
+        damping_ratio: Dimensionless, >= 0.
+
+    >>> upper_pole(1.0, 0.6)
+    (-0.6, 0.8)
+    """
+    w, z = natural_frequency, damping_ratio
+    beyond = z * z - 1
+    return (
+        -w * (z + largest_of([beyond, 0.0]) ** 0.5),
+        w * largest_of([-beyond, 0.0]) ** 0.5,
+    )
 
 
 def step_response(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 import scipy
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats, Number, check_positive
 from softgrip.control.lqr import integrating_finger
 from softgrip.errors import InvalidInputError
 
@@ -62,9 +62,9 @@ class FingerDynamics:
         return cls(damping / mass, stiffness / mass, torque_per_pressure * pump_gain / mass)
 
     @property
-    def natural_frequency(self) -> float:
+    def natural_frequency(self) -> Number:
         """Root of the stiffness, rad/s."""
-        return float(self.stiffness**0.5)
+        return self.stiffness**0.5
 
     @property
     def velocity_gain(self) -> float:

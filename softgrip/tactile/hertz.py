@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from softgrip.arrays import Value, check_positive
+from softgrip.arrays import Value, check_positive, is_symbol
 from softgrip.errors import InvalidInputError
 from softgrip.tactile.element import STATED_MODULUS
 from softgrip.units import MM
@@ -36,9 +36,9 @@ def hertz_approach(
     array([0.477, 0.757, 0.991])
     """
     check_positive(radius=radius, young_modulus=young_modulus, exponent=exponent)
-    if not -1 < poisson_ratio <= 0.5:
+    if not is_symbol(poisson_ratio) and not -1 < poisson_ratio <= 0.5:
         raise InvalidInputError("poisson_ratio", expected="above -1, up to 0.5", got=poisson_ratio)
-    if not np.all(np.asarray(force) >= 0):
+    if not is_symbol(force) and not np.all(np.asarray(force) >= 0):
         raise InvalidInputError("force", expected="N, >= 0", got=force)
     unit = 0.75 * (1 - poisson_ratio**2) / (young_modulus * np.sqrt(radius))
     return (unit * force) ** exponent  # type: ignore[no-any-return]

@@ -15,6 +15,7 @@ from softgrip.dynamics.second_order import (
     response,
     state_space,
     step_response,
+    upper_pole,
 )
 from softgrip.errors import InvalidInputError
 
@@ -36,6 +37,14 @@ def test_rates_are_minus_the_roots_of_the_equation(frequency, damping):
     a, b = SecondOrder(frequency, damping).rates
     assert a + b == pytest.approx(2 * damping * frequency)
     assert a * b == pytest.approx(frequency**2)
+
+
+@given(frequency=frequencies, damping=dampings)
+def test_upper_pole_is_minus_the_fast_rate(frequency, damping):
+    fast, _ = SecondOrder(frequency, damping).rates
+    real, imaginary = upper_pole(frequency, damping)
+    # Near a double pole the root of a difference keeps half of the digits.
+    assert (real, imaginary) == pytest.approx((-fast.real, abs(fast.imag)), rel=1e-7, abs=1e-6)
 
 
 @given(frequency=frequencies, damping=dampings)

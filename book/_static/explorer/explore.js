@@ -1,5 +1,6 @@
 // Figures whose sliders compute. A page holds, for each, what book/explore wrote: sliders, plot and
-// the law as JavaScript, or frames that were drawn ahead. Nothing is asked of a network or a kernel.
+// the law as JavaScript, or frames that were drawn ahead, or what it shows by itself (`show`, told
+// the sliders' values). Nothing is asked of a network or a kernel.
 (() => {
   const all = (window.softgripExplorers ||= {});
   const written = (number) => String(number).replace("-", "\u2212");
@@ -127,7 +128,8 @@
         controls[i].parentElement.querySelector("output").textContent = text;
         return `${s.label} ${text}`;
       });
-      if (it.frames) {
+      if (it.show) it.show(root, now);
+      else if (it.frames) {
         const index = it.sliders.reduce((at, s, i) => at * s.values.length + +controls[i].value, 0);
         const image = part("panels").firstElementChild;
         image.src = it.frames[index];
@@ -142,8 +144,9 @@
         part("panels").setAttribute("aria-label", [it.alt, ...state, title].join("; "));
         if (part("values").open) part("values").lastElementChild.replaceChildren(table(it.plot, found));
       }
-      part("call").textContent = `${it.call}(${it.sliders.map((s, i) => `${s.name}=${JSON.stringify(now[i])}`).join(", ")})`;
-      part("link").href = `#${id}?${it.sliders.map((s, i) => `${s.name}=${encodeURIComponent(now[i])}`).join("&")}`;
+      const moved = it.sliders.map((s, i) => [s, now[i]]).filter(([s, value]) => !it.show || value !== s.begin);
+      part("call").textContent = `${it.call}(${moved.map(([s, value]) => `${s.name}=${JSON.stringify(value)}`).join(", ")})`;
+      part("link").href = `#${id}?${moved.map(([s, value]) => `${s.name}=${encodeURIComponent(value)}`).join("&")}`;
     }
     // One picture a frame, however fast the slider moves.
     const ask = () => { asked ||= requestAnimationFrame(draw); };
@@ -171,7 +174,7 @@
     let before;
     addEventListener("beforeprint", () => { before = controls.map((c) => c.value); put(beginning); });
     addEventListener("afterprint", () => put(before));
-    if (!it.frames) {
+    if (it.plot) {
       let wide = 0;
       new ResizeObserver(([entry]) => {
         if (Math.abs(entry.contentRect.width - wide) > 1) { wide = entry.contentRect.width; ask(); }
@@ -181,7 +184,7 @@
   }
 
   // What draws comes after this script, and a figure perhaps before its page is read.
-  const startAll = () => { if (window.d3 && window.Plot) Object.keys(all).forEach(start); };
+  const startAll = () => Object.keys(all).filter((id) => all[id].show || (window.d3 && window.Plot)).forEach(start);
   const ready = () => document.readyState !== "loading";
   window.softgripExplore = () => { if (ready()) startAll(); };
   if (ready()) startAll();

@@ -45,6 +45,7 @@ ROOMS = {
     "author": ["author"],
     "live": ["commissioning", "protocol", "rig"],
     "companion": ["index", "ledger"],
+    "explore": ["change-an-input"],
     "twin": ["one-rig"],
 }
 """Pages by the room that has their computed numbers."""

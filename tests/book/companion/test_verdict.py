@@ -11,7 +11,7 @@ from book.companion.claims import Assumption, Band, Basis, Claim
 from book.companion.verdict import Outcome, judge, meets
 from softgrip.errors import DataFileError
 
-FIND = module._function
+FIND = module.recomputation
 HALF = Assumption("half", "x is a half", fitted_to=("fitted",))
 
 
@@ -27,7 +27,7 @@ def claim(printed="2.37", basis="model", **fields):
 
 @pytest.fixture(autouse=True)
 def value(monkeypatch):
-    monkeypatch.setattr(module, "_function", lambda claim: lambda x: x)
+    monkeypatch.setattr(module, "recomputation", lambda claim: lambda x: x)
     monkeypatch.setattr(module, "assumptions", lambda chapter: {"half": HALF})
 
 
@@ -98,7 +98,7 @@ def test_case_gives_the_print_within_the_rounding_of_both():
 
 
 def test_cases_are_joined_by_what_is_continuous_alone(monkeypatch):
-    monkeypatch.setattr(module, "_function", lambda claim: lambda x, way: x)
+    monkeypatch.setattr(module, "recomputation", lambda claim: lambda x, way: x)
     steps = ({"x": 2.0, "way": "a"}, {"x": 2.3, "way": "a"}, {"x": 3.0, "way": "b"})
     band = Band("x", cases=steps, continuous={"x": "a line"})
     assert band.joined == (True, False)
@@ -162,7 +162,7 @@ def test_a_count_is_never_close():
 
 
 def test_simulated_value_stands_on_the_rig_and_never_reproduces(monkeypatch):
-    monkeypatch.setattr(module, "_function", FIND)
+    monkeypatch.setattr(module, "recomputation", FIND)
     chapter = SimpleNamespace(__name__="chapter", value=module.simulated(lambda x: x))
     monkeypatch.setattr(module, "import_module", lambda name: chapter)
     assert judge(claim(basis="rig")).outcome is Outcome.OPEN
@@ -202,6 +202,6 @@ def test_ledger_of_a_place_judges_its_claims_and_no_others(monkeypatch):
 
 
 def test_one_claim_is_judged_by_its_id_and_key(monkeypatch):
-    monkeypatch.setattr(module, "_function", FIND)
+    monkeypatch.setattr(module, "recomputation", FIND)
     assert module.outcome_of(5, "table-5.2-true-{key}", "Dragon Skin 20") is Outcome.CONTRADICTS
     assert module.outcome_of(5, "table-5.2-true-{key}", "Dragon Skin FX Pro") is Outcome.REPRODUCED
