@@ -5,6 +5,9 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/ready
 
+# Where it is set, each process, and each kernel of a page, compiles every library it imports anew.
+unexport PYTHONDONTWRITEBYTECODE
+
 .DEFAULT_GOAL := help
 .PHONY: help book book-version test lint lab figures ledger accept bench rig-test picture lock clean
 
