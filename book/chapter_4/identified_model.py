@@ -17,6 +17,7 @@ from softgrip.logs.reader import read_log
 from softgrip.logs.repeated_steps import read_alike
 from softgrip.provenance import data_file
 from softgrip.pump.flow import flow
+from softgrip.reads import remembered
 
 STEP_LOGS = tuple(f"simulated/step-60-{run}.csv" for run in range(1, 8))
 PUSH_LOG = "simulated/push-a.csv"
@@ -82,6 +83,7 @@ def identify_capacity(path: Path, *, below: float = LOW_PRESSURE) -> float:
     return float(swept @ swept / (swept @ pressure))
 
 
+@remembered
 def identified_model() -> IdentifiedModel:
     """Return the model of the simulated rig: seven steps to 60 deg and the default push."""
     finger = identify_finger([data_file(name).path for name in STEP_LOGS]).system
