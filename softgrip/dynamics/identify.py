@@ -219,7 +219,7 @@ def _start(
     lates: Floats,
 ) -> Floats:
     """Return the best of a grid of systems and dead times, with their gain and offset."""
-    tried, deviation = [], y - y.mean()
+    tried, off = [], y - y.mean()
     for frequency in np.geomspace(*band, 12):
         for damping in START_DAMPING:
             moved = unit(frequency, damping)
@@ -228,7 +228,7 @@ def _start(
                 shape = moved if late == 0 else np.interp(t - late, t, moved, left=0.0)
                 moves = shape - shape.mean()
                 with np.errstate(divide="ignore", invalid="ignore"):  # nothing moves in time
-                    alike = (moves @ deviation) ** 2 / (moves @ moves)
+                    alike = (moves @ off) ** 2 / (moves @ moves)
                 tried.append((np.nan_to_num(alike), shape, (frequency, damping), late))
     _, shape, system, late = max(tried, key=lambda found: found[0])
     line = np.polyfit(shape, y, 1)

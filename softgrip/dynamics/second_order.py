@@ -101,7 +101,7 @@ def step_response(
     >>> step_response([0.0, 1.0], 1.0, 1.0).round(6).tolist()
     [0.0, 0.264241]
     """
-    t, w, z = np.broadcast_arrays(time, natural_frequency, damping_ratio)
+    t, w, z = map(np.asarray, (time, natural_frequency, damping_ratio))
     if not (np.all(t >= 0) and np.all(w > 0) and np.all(z >= 0)):
         raise InvalidInputError(
             "time, natural_frequency, damping_ratio", expected=">= 0, > 0, >= 0", got=(t, w, z)
