@@ -31,7 +31,8 @@ book-version: $(READY)
 	  found.startswith("1.") or exit(f"The book needs jupyter-book 1.x, $(VENV) has {found}: rm -r $(VENV), make book")'
 
 test: $(READY)  ## run the tests; those of the pages build the book and open it in Chromium
-	@$(BIN)/python -m pytest -n auto --dist loadfile --no-loadscope-reorder
+	@$(BIN)/python -m pytest -n auto --dist loadfile --no-loadscope-reorder \
+	  --durations=20 --durations-min=1
 
 lint: $(READY)  ## check style, types and the direction of imports
 	@$(BIN)/ruff check .

@@ -15,6 +15,13 @@ BESIDE = ROOT.parent / "shared"
 CASES = Path(os.environ.get("SOFTGRIP_CASES_DIR", BESIDE / "cases" / "own-data"))
 """Inputs as people of the field bring them."""
 
+LONG = (
+    *("board/test_firmware_noise.py", "board/test_record_emulated.py", "rig/test_record_pad.py"),
+    *("book/companion/test_expected.py", "book/explore/test_laws.py", "book/twin/test_study.py"),
+    *("book/chapter_2/test_own_pad.py", "book/live/test_emulated_figures.py"),
+)
+"""Files that take longest, by the table at the end of a run, though they have few tests."""
+
 for variable, name in (("SOFTGRIP_MATERIALS_DIR", "materials"), ("SOFTGRIP_AUTHOR_DIR", "author")):
     if variable not in os.environ and (BESIDE / name).is_dir():
         os.environ[variable] = str(BESIDE / name)
@@ -29,11 +36,13 @@ settings.load_profile("no clock")
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Begin with what takes longest, so that no processor waits for it in the end.
 
-    The book first, then the files with most tests: processes take whole files, in this order.
+    The book first, then `LONG`, then the files with most tests: processes take whole files, in this
+    order.
     """
     tests = Counter(item.path for item in items)
-    longest = [item.path for item in items if item.get_closest_marker("book")]
-    items.sort(key=lambda item: (item.path not in longest, -tests[item.path]))
+    book = {item.path for item in items if item.get_closest_marker("book")}
+    long = {ROOT / "tests" / name for name in LONG}
+    items.sort(key=lambda i: (i.path not in book, i.path not in long, -tests[i.path]))
 
 
 @pytest.fixture(scope="session")

@@ -3,8 +3,6 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from book.chapter_6.controllers import gripper_controller
 from book.companion.choices import choice
 from softgrip.arrays import Floats
@@ -81,5 +79,5 @@ def grasp(stiffness: float, by: str, *, equal: bool = False, step: float = STEP)
     rig = Simulation(gripper, seed=SEED, contact=contact, step=step, period=SAMPLE)
     made = drive(rig, DRIVES[by](), duration=DURATION, every=round(PERIOD / SAMPLE))
     angles, place = made.truth.angle[..., 0].T, made.truth.contact[:, 0, 0]
-    forces = np.array([stiffness * one.dent for one in contact.touches(angles, place)])
+    forces = stiffness * contact.touches(angles, place).dent
     return Grasp(made.time, angles, place, forces, contact)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import scipy
@@ -115,16 +116,22 @@ def fit_step(time: Floats, output: Floats, name: str) -> StepFit:
     def unit(p: Floats, t: Floats) -> Floats:
         return shape(np.maximum(t - p[0], 0.0), p[1:])
 
+    @lru_cache(maxsize=4)  # the search moves level and rise alone, too, which need no other
+    def whole(*p: float) -> Floats:
+        return unit(np.array(p), time)
+
     def residual(x: Floats) -> Floats:
-        return np.asarray(x[-2] + x[-1] * unit(x[:-2], time) - y)
+        return np.asarray(x[-2] + x[-1] * whole(*x[:-2]) - y)
 
     some = slice(None, None, -(-y.size // THINNED))
     grid = [np.geomspace(1e-3, 1.0, STARTS) * end, *([np.array(dampings)] if dampings else [])]
     dead = np.concatenate([[0.0], np.geomspace(1e-3, 0.5, STARTS) * end])
     tried = np.stack(np.meshgrid(dead, *grid, indexing="ij"), axis=-1).reshape(-1, 1 + len(grid))
     # Level and rise are a line, which explains the square of the correlation.
+    moves = np.array([unit(p, time[some]) for p in tried])
+    moves -= moves.mean(axis=1, keepdims=True)
     with np.errstate(divide="ignore", invalid="ignore"):  # a response that is over at once
-        alike = [np.corrcoef(unit(p, time[some]), y[some])[0, 1] ** 2 for p in tried]
+        alike = (moves @ (y[some] - y[some].mean())) ** 2 / np.sum(moves**2, axis=1)
     p = tried[int(np.nanargmax(alike))]
     rise, level = np.polyfit(unit(p, time), y, 1)
     best = [*p, level, rise]

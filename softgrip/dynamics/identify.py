@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -131,6 +132,7 @@ def identify(
     u_scale, y_scale = float(np.max(np.abs(u - rest))), float(np.ptp(y))
     u, y, duration = (u - rest) / u_scale, y / y_scale, float(t[-1] - t[0])
 
+    @lru_cache(maxsize=8)  # the search moves gain and offset alone, too, which need no other
     def unit(frequency: float, damping: float, late: float = 0.0) -> Floats:
         return _late_response(SecondOrder(frequency, damping), t, u, late, hold)
 
@@ -217,15 +219,16 @@ def _start(
     lates: Floats,
 ) -> Floats:
     """Return the best of a grid of systems and dead times, with their gain and offset."""
-    tried = []
+    tried, off = [], y - y.mean()
     for frequency in np.geomspace(*band, 12):
         for damping in START_DAMPING:
             moved = unit(frequency, damping)
             for late in lates:
                 # Between samples a line does for a start.
                 shape = moved if late == 0 else np.interp(t - late, t, moved, left=0.0)
+                moves = shape - shape.mean()
                 with np.errstate(divide="ignore", invalid="ignore"):  # nothing moves in time
-                    alike = np.corrcoef(shape, y)[0, 1] ** 2
+                    alike = (moves @ off) ** 2 / (moves @ moves)
                 tried.append((np.nan_to_num(alike), shape, (frequency, damping), late))
     _, shape, system, late = max(tried, key=lambda found: found[0])
     line = np.polyfit(shape, y, 1)

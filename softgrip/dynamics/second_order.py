@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, final, get_args
+from typing import TYPE_CHECKING, Any, Literal, final, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -122,7 +122,7 @@ def step_response(
     >>> step_response([0.0, 1.0], 1.0, 1.0).round(6).tolist()
     [0.0, 0.264241]
     """
-    t, w, z = np.broadcast_arrays(time, natural_frequency, damping_ratio)
+    t, w, z = map(np.asarray, (time, natural_frequency, damping_ratio))
     if not (np.all(t >= 0) and np.all(w > 0) and np.all(z >= 0)):
         raise InvalidInputError(
             "time, natural_frequency, damping_ratio", expected=">= 0, > 0, >= 0", got=(t, w, z)
@@ -234,28 +234,26 @@ def response(
         raise InvalidInputError("time", expected="increasing values", got=f"a step of {dt.min():g}")
     w, z = system.natural_frequency, system.damping_ratio
     q = system.gain * np.moveaxis(p, -1, 0)
-    slope = np.diff(q, axis=0) / dt.reshape(-1, *([1] * (q.ndim - 1)))
+    step = dt.reshape(-1, *([1] * (q.ndim - 1)))
+    slope = np.diff(q, axis=0) / step
     if hold == "zero":
         slope = np.zeros_like(slope)
     c, s = free_motion(dt, w, z)
-    lag = 2 * z / w
     # A ramp has the exact solution q - lag * slope; what deviates from it moves freely.
-    angle = np.empty_like(q)
-    angle[0] = q[0] if initial_pressure is None else system.gain * initial_pressure
-    y: Floats | float
-    y, rate = (angle[0], 0 * q[0]) if q.ndim > 1 else (float(angle[0]), 0.0)
-    # Floats, not numpy scalars, where there is one run: the loop is then ten times as fast.
-    scalar = q.ndim == 1
-    rows = (dt, c + z * w * s, s, -w * w * s, c - z * w * s)
-    steps = zip(*(r.tolist() for r in rows), strict=True)
-    starts, slopes = (q.tolist(), slope.tolist()) if scalar else (q, slope)
-    for k, (h, yy, yr, ry, rr) in enumerate(steps):
-        m = slopes[k]
-        dy, dr = y - starts[k] + lag * m, rate - m
-        y = starts[k] + m * h - lag * m + yy * dy + yr * dr
+    late = 2 * z / w * slope
+    ramp = q[:-1] + slope * step - late
+    y = q[0] if initial_pressure is None else np.full(q.shape[1:], system.gain * initial_pressure)
+    rows: list[Any] = [c + z * w * s, s, -w * w * s, c - z * w * s, q[:-1], slope, late, ramp]
+    if q.ndim == 1:
+        # Floats, not numpy scalars, where there is one run: the loop is then ten times as fast.
+        y, rows = float(y), [row.tolist() for row in rows]
+    rate, angle = 0 * y, [y]
+    for yy, yr, ry, rr, start, m, behind, straight in zip(*rows, strict=True):
+        dy, dr = y - start + behind, rate - m
+        y = straight + yy * dy + yr * dr
         rate = m + ry * dy + rr * dr
-        angle[k + 1] = y
-    return np.moveaxis(angle, 0, -1)
+        angle.append(y)
+    return np.moveaxis(np.array(angle), 0, -1)
 
 
 def _rates(

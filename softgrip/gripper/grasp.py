@@ -81,14 +81,15 @@ def touch(
     x, radius = np.asarray(ahead, dtype=np.float64), length / theta
     # The nearest point of an arc lies towards its own centre, (radius, 0), or is an end.
     turned = np.clip(np.arctan2(depth, radius - x), 0.0, theta)
-    across, down = radius * (1 - np.cos(turned)), radius * np.sin(turned)
+    cosine, sine = np.cos(turned), np.sin(turned)
+    across, down = radius * (1 - cosine), radius * sine
     away_x, away_y = x - across, depth - down
     distance = np.hypot(away_x, away_y)
     dent = np.maximum(disc.radius - distance, 0.0)
     force = disc.stiffness * dent
     # How that point moves with theta, at its place along the finger.
-    by_x = (turned * np.sin(turned) - 1 + np.cos(turned)) * radius / theta
-    by_y = (turned * np.cos(turned) - np.sin(turned)) * radius / theta
+    by_x = (turned * sine - 1 + cosine) * radius / theta
+    by_y = (turned * cosine - sine) * radius / theta
     unit_x, unit_y = away_x / distance, away_y / distance
     return Touch(dent, -force * (by_x * unit_x + by_y * unit_y), force * unit_x)
 
@@ -122,20 +123,17 @@ class DiscBetweenFingers:
     def __post_init__(self) -> None:
         check_fields(self, other=("disc",))
 
-    def touches(self, angle: Floats, place: Floats) -> tuple[Touch, Touch]:
-        """Return both contacts, for angles (2, ...) in rad and a place (...) in m."""
-        first, second = (
-            touch(angle[k], self.gap / 2 + side * place, self.depth, self.length, self.disc)
-            for k, side in ((0, 1), (1, -1))
-        )
-        return first, second
+    def touches(self, angle: Floats, place: Floats) -> Touch:
+        """Return both contacts, shape (2, ...), for angles (2, ...) in rad, a place (...) in m."""
+        ahead = np.stack([self.gap / 2 + place, self.gap / 2 - place])
+        return touch(angle, ahead, self.depth, self.length, self.disc)
 
     def slopes(self, angle: Floats, own: Floats, slope: Floats) -> Floats:
         """Write the slopes of place and speed, shape (2, runs); return the torques, (2, runs)."""
         place, speed = own
-        first, second = self.touches(angle, place)
+        both = self.touches(angle, place)
         weight = 9.80665 * self.disc.mass
         rubbing = self.disc.friction * weight * speed / np.hypot(speed, self.slow)
         slope[0] = speed
-        slope[1] = (first.sideways - second.sideways - rubbing) / self.disc.mass
-        return np.stack([first.torque, second.torque])
+        slope[1] = (both.sideways[0] - both.sideways[1] - rubbing) / self.disc.mass
+        return both.torque

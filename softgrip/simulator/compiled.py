@@ -24,6 +24,7 @@ class Trajectories:
         command: rad/s, held *until* each time, shape (runs, samples).
         pressure, angle: Measured: Pa gauge and rad, shape (runs, samples) and (runs, fingers,
             samples).
+        felt_pressure, felt_angle: The same without noise, range and converter.
         true_pressure, true_angle, true_rate: The same without the sensors, and rad/s.
         motor_speed, plunger, amount: As in `Truth`, shape (runs, samples).
     """
@@ -32,6 +33,8 @@ class Trajectories:
     command: Floats | None = None
     pressure: Floats | None = None
     angle: Floats | None = None
+    felt_pressure: Floats | None = None
+    felt_angle: Floats | None = None
     true_pressure: Floats | None = None
     true_angle: Floats | None = None
     true_rate: Floats | None = None
@@ -48,7 +51,7 @@ SENSORS = (
 FINGER = (*("stiffness", "damping", "power", "friction", "slow", "torque_per_pressure"),)
 """Rows of the kernel's records that `Simulation` has by the same name."""
 
-OF_FINGERS = ("angle", "true_angle", "true_rate")
+OF_FINGERS = ("angle", "felt_angle", "true_angle", "true_rate")
 QUANTITIES = tuple(field.name for field in fields(Trajectories))[1:]
 
 

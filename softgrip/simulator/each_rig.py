@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import Floats
+from softgrip.simulator.compiled import drive_compiled
 from softgrip.simulator.parameters import RigParameters, Spread
 from softgrip.simulator.simulation import Simulation
 
@@ -41,9 +42,14 @@ def felt(
         plunger=plunger,
     )
     run.push(torque)
-    pressure = np.empty((len(commands), len(rigs)))
-    angle = np.empty((len(commands), len(rigs[0].fingers), len(rigs)))
-    for k, command in enumerate(commands):
-        run.hold(command)
-        pressure[k], angle[k] = run.felt
-    return pressure, np.minimum(angle, rigs[0].sensors.angle_range)
+    made = drive_compiled(
+        run,
+        commands,
+        duration=len(commands) * period,
+        limit=np.inf,
+        keep=("felt_pressure", "felt_angle"),
+    )
+    assert made.felt_pressure is not None
+    assert made.felt_angle is not None
+    pressure, angle = (np.moveaxis(one, 0, -1) for one in (made.felt_pressure, made.felt_angle))
+    return pressure[1:], np.minimum(np.moveaxis(angle, 0, 1)[1:], rigs[0].sensors.angle_range)

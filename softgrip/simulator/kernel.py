@@ -46,9 +46,10 @@ BRANCH = _record("held", "memory relaxation")
 
 
 class Rows(NamedTuple):
-    """Where each quantity of a sample is kept, the last three from there on for each finger.
+    """Where each quantity of a sample is kept, the last four from there on for each finger.
 
-    -1 for nowhere. Those that are `true` the sensors do not tell.
+    -1 for nowhere. Those that are `true` the sensors do not tell, and what is `felt` they tell with
+    noise, range and converter.
     """
 
     command: int
@@ -56,9 +57,11 @@ class Rows(NamedTuple):
     plunger: int
     amount: int
     true_pressure: int
+    felt_pressure: int
     pressure: int
     true_angle: int
     true_rate: int
+    felt_angle: int
     angle: int
 
 
@@ -298,6 +301,7 @@ def _keep(rig, fingers, angle, syringe, rows, sample, out, runs):
     _write(out, runs, rows.motor_speed, sample, rig.speed)
     _write(out, runs, rows.plunger, sample, rig.plunger)
     _write(out, runs, rows.amount, sample, rig.amount[STAGE])
+    _write(out, runs, rows.felt_pressure, sample, rig.sensed[STAGE])
     _write(out, runs, rows.pressure, sample, rig.pressure)
     if rows.true_pressure >= 0:
         _gauge_pressure(rig, fingers, syringe)
@@ -307,6 +311,8 @@ def _keep(rig, fingers, angle, syringe, rows, sample, out, runs):
             _write(out, runs, rows.true_angle + f, sample, fingers[f].angle[STAGE])
         if rows.true_rate >= 0:
             _write(out, runs, rows.true_rate + f, sample, fingers[f].rate[STAGE])
+        if rows.felt_angle >= 0:
+            _write(out, runs, rows.felt_angle + f, sample, fingers[f].sensed[STAGE])
         if rows.angle >= 0:
             _write(out, runs, rows.angle + f, sample, angle[f])
 

@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 from softgrip.arrays import Floats, check_positive
 from softgrip.control.pid import PERIOD
 from softgrip.logs.repeated_steps import StepTest
+from softgrip.simulator.compiled import drive_compiled
 from softgrip.simulator.parameters import PumpParameters, RigParameters, Spread
 from softgrip.simulator.simulation import Simulation
 
@@ -42,8 +43,12 @@ def simulate_step_test(rig: RigParameters, plunger: float, *, runs: int, seed: i
         runs, seed: As of `Simulation`.
     """
     driven = Simulation(rig, runs=runs, seed=seed, period=PERIOD)
-    _, truth = driven.open_loop(step_commands(plunger))
-    return StepTest(np.asarray(truth.time), truth.pressure.T, truth.angle[:, 0].T)
+    made = drive_compiled(
+        driven, step_commands(plunger), duration=DURATION, keep=("true_pressure", "true_angle")
+    )
+    assert made.true_pressure is not None
+    assert made.true_angle is not None
+    return StepTest(made.time[1:], made.true_pressure[:, 1:], made.true_angle[:, 0, 1:])
 
 
 def travel_to(rig: RigParameters, angle: float) -> float:

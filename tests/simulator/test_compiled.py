@@ -33,6 +33,10 @@ PUSH = np.array([[1e-3], [0.0], [-1e-3]])
 """N m over three periods."""
 
 
+FELT = ("felt_pressure", "felt_angle")
+"""What `drive` does not give, but a rig of which each period is held by itself."""
+
+
 class OneARun:
     """A controller of the rig that looks at nothing: commands of each run."""
 
@@ -61,7 +65,7 @@ def agree(found, made):
     The rounding of the two differs by some 1e-15 of it. Neither it nor a push of the kernel's
     arithmetic moves a sensor over the edge of a count in these runs.
     """
-    assert set(of_numpy(made)) == set(QUANTITIES)
+    assert {*of_numpy(made), *FELT} == set(QUANTITIES)
     np.testing.assert_array_equal(found.time, made.time)
     for name, expected in of_numpy(made).items():
         scale = abs(expected).max() or 1.0
@@ -119,6 +123,20 @@ def test_runs_of_other_steps_are_those_of_a_rig_of_these_steps():
             np.testing.assert_array_equal(
                 getattr(found, name)[k : k + 1], getattr(alone, name), err_msg=name
             )
+
+
+@pytest.mark.parametrize("rig", [FINGER, THREE], ids=["one finger", "three"])
+def test_sensors_feel_what_they_feel_on_numpy(rig):
+    rigs, speeds = differing(rig, 5), commands(40, 5)
+    found = drive_compiled(Simulation(rigs, seed=4), speeds, duration=1.0, keep=FELT)
+    held = Simulation(rigs, seed=4)
+    for k, command in enumerate(speeds.T, start=1):
+        held.hold(command)
+        pressure, angle = held.felt
+        for one, expected in ((found.felt_pressure, pressure), (found.felt_angle, angle.T)):
+            atol = 1e-9 * abs(one).max()
+            np.testing.assert_allclose(one[..., k], expected, rtol=0, atol=atol)
+    assert not found.felt_angle[..., 0].any()
 
 
 def test_both_ends_of_the_stroke_stop_the_motor_as_on_numpy():

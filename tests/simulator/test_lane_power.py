@@ -6,7 +6,7 @@ from numba import vectorize
 from softgrip.simulator import kernel
 
 
-@vectorize(["f8(f8, f8)"], nopython=True)
+@vectorize(nopython=True)  # compiled when it is called
 def power(base, exponent):
     return kernel._power(base, exponent)
 

@@ -7,7 +7,6 @@ the loops and the conditions of the models leave below a billionth of what is sh
 
 import json
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 import pytest
@@ -126,7 +125,7 @@ def settled(time, output, final):
 
 
 def lqr(p, q2, step):
-    model = identified_model_once()
+    model = identified_model()
     made, _ = designed_on("printed", model)
     gain = lqr_gain(made, Weights(p=p, q=(1.0, q2, 0.0)))
     found = limited_loop(made, model.pump_gain, gain, step * DEG, duration=4.0)
@@ -136,9 +135,6 @@ def lqr(p, q2, step):
         "command": found.command / SPEED_LIMIT,
         **settled(found.time, found.measured, step * DEG),
     }
-
-
-identified_model_once = cache(identified_model)
 
 
 def pump(syringe, lead, speed):
@@ -307,8 +303,6 @@ def test_each_law_of_a_page_has_what_it_is_held_against():
 def test_law_is_what_the_chapter_computes(monkeypatch, name, words):
     # A motor's speed in a log has six decimals, a law has all.
     monkeypatch.setattr(state_feedback, "SPEED_DIGITS", 15)
-    # To identify it takes longer than all that is computed on it.
-    monkeypatch.setattr(controllers, "identified_model", identified_model_once)
     points = page_laws()[name].points(POINTS)
     found = law_at_points(name, points, words)
     expected = at_points(CHAPTERS[name], points, words)
