@@ -8,9 +8,9 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from book.chapter_3.finger_drawing import draw_section
 from book.chapter_3.regulators import designed_on
 from book.chapter_4.identified_model import IdentifiedModel, identified_model
+from book.companion.finger_drawing import draw_section
 from book.companion.style import BLUE, GREY, LINEAR, ORANGE, PRINTED, SKY, WIDTH, style
 from book.explore.plot import Band, Level, Line, Outline, Panel, Plot
 from book.explore.scan import Numbers, scan

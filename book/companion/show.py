@@ -73,7 +73,7 @@ class Shown:
     def verdicts(self) -> str:
         """The verdicts on the numbers printed at this place, counted."""
         item = self.exhibit
-        if not (item.in_dissertation and self.numbered):
+        if item.drawing or not (item.in_dissertation and self.numbered):
             return ""
         entries = ledger(int(item.number.split(".")[0]), [item.title])
         count = Counter(entry.outcome for entry in entries)

@@ -42,6 +42,7 @@ NO_PROSE = re.compile(
 PAGES = {page.stem: page.read_text("utf-8") for page in sorted(BOOK.glob("*.md"))}
 ROOMS = {
     **{chapter: [f"chapter-{chapter}"] for chapter in chapters()},
+    "1": [],  # its captions alone
     "author": ["author"],
     "live": ["commissioning", "protocol", "rig"],
     "companion": ["index", "ledger"],
