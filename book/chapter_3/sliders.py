@@ -10,9 +10,11 @@ from matplotlib.figure import Figure
 
 from book.chapter_3.regulators import designed_on
 from book.chapter_4.identified_model import IdentifiedModel, identified_model
-from book.companion.finger_drawing import draw_section
+from book.companion.finger_drawing import RUBBER, draw_section
 from book.companion.style import BLUE, GREY, LINEAR, ORANGE, PRINTED, SKY, WIDTH, style
-from book.explore.plot import Band, Level, Line, Outline, Panel, Plot
+from book.explore import finger_picture
+from book.explore.finger_picture import ACROSS, LENGTH, UP
+from book.explore.plot import Band, Bent, Dimension, Level, Line, Outline, Panel, Plot
 from book.explore.scan import Numbers, scan
 from book.explore.settled import entered
 from book.explore.small_matrices import times
@@ -82,6 +84,9 @@ def finger(top: Number, bottom: Number, wall: Number) -> dict[str, Any]:
     return {
         "rubber_x": [-half, half, half, -half],
         "rubber_y": [-bottom, -bottom, top, top],
+        "a_ends": [0.0, top],
+        "b_ends": [-bottom, 0.0],
+        "t_ends": [inner, half],
         "chamber_x": [-inner, inner, inner, -inner],
         "chamber_y": [0.0, 0.0, top - wall, top - wall],
         "pressure": over,
@@ -100,18 +105,29 @@ FINGER_PLOT = Plot(
                 Outline("rubber_x", "rubber_y", "rubber", colour=GREY, fill=0.3),
                 Outline("chamber_x", "chamber_y", "air", colour=SKY, fill=0.6),
                 Level(0.0, label="neutral surface"),
+                Dimension(-19.0, "a_ends", "a"),
+                Dimension(-19.0, "b_ends", "b"),
+                Dimension([-15.0, 15.0], -8.0, "w"),
+                Dimension("t_ends", 10.0, "t"),
             ],
-            x=(-18, 18), y=(-8, 26), x_label="mm", equal=True, share=0.42, left=30,
+            x=(-21, 21), y=(-10, 26), x_label="mm", equal=True, share=0.5, left=36,
+        ),
+        Panel(
+            [
+                Outline([-8, 0, 0, -8], [-8, -8, 26, 26], colour=GREY, fill=0.5),
+                Bent([0, LENGTH, LENGTH, 0], "rubber_y", "widest", LENGTH, colour=RUBBER),
+            ],
+            x=ACROSS, y=UP, equal=True, bare=True, share=0.5,
         ),
         Panel(
             [Line("pressure", "torque", "torque", colour=BLUE)],
             x=(0, LARGEST), y=(0, 0.75), x_label="pressure (MPa)", y_label="torque (N m)",
-            height=230, share=0.29, left=40,
+            height=230, share=0.5, left=40,
         ),
         Panel(
             [Line("pressure", "angle", "bending", colour=ORANGE)],
             x=(0, LARGEST), y=(0, 300), x_label="pressure (MPa)", y_label="angle (deg)",
-            height=230, share=0.29, left=40,
+            height=230, share=0.5, left=40,
         ),
     ],
     title=f"{{most:.3f}} N m and {{widest:.0f}} deg at {LARGEST:g} MPa, {{frequency:.2f}} rad/s",
@@ -208,8 +224,9 @@ LQR_PLOT = Plot(
                 Line("time", "command", "command u", colour=GREY, dash="6 3", step=True),
                 Line("time", "angle", "angle / step", colour=LINEAR),
             ],
-            x=(0, DURATION), y=(-1.1, 1.4), x_label="time (s)", y_label="share",
-        )
+            x=(0, DURATION), y=(-1.1, 1.4), x_label="time (s)", y_label="share", share=0.64,
+        ),
+        finger_picture.finger("angle", "time", "step"),
     ],
     title=f"within {100 * BAND:g} % after {{settled:.2f}} s",
     cases=[("late", f"not within {100 * BAND:g} % in {DURATION:g} s")],

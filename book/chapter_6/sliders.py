@@ -8,6 +8,7 @@ import numpy as np
 
 from book.chapter_6.figures_model import SPA
 from book.companion.style import PRINTED
+from book.explore.finger_picture import gripper as fingers
 from book.explore.plot import Level, Line, Panel, Plot
 from book.explore.scan import Numbers, scan
 from book.explore.small_matrices import Matrix, bilinear, matrix, numbers, taken, times
@@ -206,8 +207,9 @@ GRIPPER_PLOT = Plot(
                 Line("time", "SPA_1", "SPA 1", colour=SPA[0]),
                 Line("time", "SPA_2", "SPA 2", colour=SPA[1], dash="6 3"),
             ],
-            x=(0, DURATION), y=(0, 90), x_label="time (s)", y_label="angle (deg)",
-        )
+            x=(0, DURATION), y=(0, 90), x_label="time (s)", y_label="angle (deg)", share=0.64,
+        ),
+        fingers(("SPA_1", "SPA_2"), "time", SPA),
     ],
     title="largest command {peak:.1f} units",
 )  # fmt: skip

@@ -100,22 +100,21 @@ def _smooth(corners: ArrayLike) -> Complex:
     return np.ravel(ends[:, None] + part * (np.roll(ends, -1) - ends)[:, None])
 
 
-def side_view(shape: FingerShape) -> tuple[Complex, Complex]:
-    """Return the outlines of the rubber and of the air in a finger cut along its middle, m."""
+def side_view(shape: FingerShape) -> tuple[list[complex], list[complex]]:
+    """Return the corners of the rubber and of the air in a finger cut along its middle, m."""
     chambers, grooves = voids(shape)
-    top, bottom = shape.section.top, shape.section.bottom
-    rubber = [shape.length + 1j * top, shape.length - 1j * bottom, -1j * bottom, 1j * top]
+    top, bottom = 1j * shape.section.top, -1j * shape.section.bottom
+    rubber = [shape.length + top, shape.length + bottom, bottom, top]
     for groove in grooves:
-        left, right = groove.low[0], groove.high[0]
-        floor = 1j * groove.low[1]
-        rubber += [left + 1j * top, left + floor, right + floor, right + 1j * top]
+        left, right, floor = groove.low[0], groove.high[0], 1j * groove.low[1]
+        rubber += [left + top, left + floor, right + floor, right + top]
     duct = 1j * CHANNEL
     air = [0j, duct]  # from the nozzle on
     for chamber in chambers:
         left, right, roof = chamber.low[0], chamber.high[0], 1j * chamber.high[1]
         air += [left + duct, left + roof, right + roof, right + duct]
     air.append(complex(right))
-    return _smooth(rubber), _smooth(air)
+    return rubber, air
 
 
 def draw_finger(
@@ -146,8 +145,9 @@ def draw_finger(
         return np.column_stack([found.real, found.imag])
 
     rubber, inside = side_view(shape)
-    axes.add_patch(Polygon(placed(rubber), fc=RUBBER, ec="black", lw=0.9, joinstyle="round"))
-    axes.add_patch(Polygon(placed(inside), fc=air, ec=GREY, lw=0.5))
+    look: dict[str, Any] = {"fc": RUBBER, "ec": "black", "lw": 0.9, "joinstyle": "round"}
+    axes.add_patch(Polygon(placed(_smooth(rubber)), **look))
+    axes.add_patch(Polygon(placed(_smooth(inside)), fc=air, ec=GREY, lw=0.5))
     sensor = placed(np.linspace(0, shape.length, 40) - 1j * SENSOR)
     axes.plot(*sensor.T, color=PURPLE, lw=1.4, solid_capstyle="butt")
     tip = placed([complex(shape.length)])[0]
