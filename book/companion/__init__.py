@@ -1,5 +1,6 @@
 """What every page shares: exhibits, claims with their verdicts, and how they are shown."""
 
+from book.companion.absent import absent
 from book.companion.chips import (
     show_assumptions,
     show_bases,
@@ -10,6 +11,7 @@ from book.companion.chips import (
 from book.companion.show import show
 
 __all__ = [
+    "absent",
     "show",
     "show_assumptions",
     "show_bases",

@@ -4,6 +4,7 @@ Along the finger a place is a complex number: how far from the base, and 1j time
 neutral surface. So is one in the plane of the drawing.
 """
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -84,16 +85,17 @@ def draw_bent(
     axes.plot(outline[:, 0], outline[:, 1], color=color, lw=0.8, label=label)
 
 
-def six_chambers(length: float = 94 * MM) -> FingerShape:
+def six_chambers(length: float | None = None) -> FingerShape:
     """Return the finger of Table 3.1 with the chambers of Section 6.3, `length` long, m.
 
-    Caps, grooves and channel are not printed.
+    Without a length it is that of Design 1. Caps, grooves and channel are not printed.
     """
     section = table_3_1()["Opt. parameters"]
-    return FingerShape(section, CHAMBERS, length, groove_floor=GROOVE_FLOOR)
+    shape = FingerShape(section, CHAMBERS, groove_floor=GROOVE_FLOOR)
+    return shape if length is None else replace(shape, length=length)
 
 
-def _smooth(corners: ArrayLike) -> Complex:
+def smooth(corners: ArrayLike) -> Complex:
     """Return a closed line through corners with points so near that it can be bent."""
     ends = np.asarray(corners, dtype=np.complex128)
     part = np.linspace(0, 1, 16, endpoint=False)
@@ -146,8 +148,8 @@ def draw_finger(
 
     rubber, inside = side_view(shape)
     look: dict[str, Any] = {"fc": RUBBER, "ec": "black", "lw": 0.9, "joinstyle": "round"}
-    axes.add_patch(Polygon(placed(_smooth(rubber)), **look))
-    axes.add_patch(Polygon(placed(_smooth(inside)), fc=air, ec=GREY, lw=0.5))
+    axes.add_patch(Polygon(placed(smooth(rubber)), **look))
+    axes.add_patch(Polygon(placed(smooth(inside)), fc=air, ec=GREY, lw=0.5))
     sensor = placed(np.linspace(0, shape.length, 40) - 1j * SENSOR)
     axes.plot(*sensor.T, color=PURPLE, lw=1.4, solid_capstyle="butt")
     tip = placed([complex(shape.length)])[0]

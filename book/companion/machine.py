@@ -14,6 +14,7 @@ from matplotlib.patches import Circle, PathPatch, Polygon
 from matplotlib.path import Path
 
 from book.companion.block_diagram import arrow, finish
+from book.companion.claims import printed
 from book.companion.finger_drawing import AIR, RUBBER, draw_finger, six_chambers
 from book.companion.style import BLACK, GREY, WIDTH, sheet
 from softgrip.pump.parts import SCREWS, SYRINGES, Screw, Syringe
@@ -21,9 +22,9 @@ from softgrip.tactile.element_table import PYRAMID_CUT
 from softgrip.tactile.pad_layout import ELEMENT_SIDE, PAD_SIZE, THREE_TWO_THREE
 from softgrip.units import MM
 
-METAL, GLASS, CIRCUIT, MOTOR_COLOUR = "#C9CDD2", "#EEF5F9", "#CDE8DD", "#9AA0A8"
-INK = "#8A8F96"
-"""Of the conductive skin of an element."""
+METAL, GLASS, CIRCUIT, MOTOR_COLOUR = "#C9CDD2", "#EEF5F9", "#CDE8DD", "#B4B9C0"
+INK, VELOSTAT = "#8A8F96", "#5A5A5A"
+"""The conductive skin of an element, and the foil of the force layer."""
 SMALL = 8.5
 """Size of the letters at a part, points."""
 MOTOR = 42.3
@@ -76,7 +77,9 @@ def dimension(
     for place, moved in zip((start, end), ends, strict=True):
         if aside:
             axes.plot([place.real, moved.real], [place.imag, moved.imag], color=colour, lw=0.6)
-    arrow(axes, *((z.real, z.imag) for z in ends), colour=colour, style="<|-|>")
+    heads = {"arrowstyle": "<|-|>", "mutation_scale": 6, "lw": 0.8, "shrinkA": 0, "shrinkB": 0}
+    first, last = ((z.real, z.imag) for z in ends)
+    axes.annotate("", last, first, arrowprops={**heads, "color": colour})
     side = left if aside >= 0 else -left
     upright = abs(side.real) > abs(side.imag)
     words(
@@ -98,6 +101,14 @@ def hose(axes: Any, *places: complex) -> None:
 def signal(axes: Any, *places: complex, colour: str) -> None:
     """Draw a signal: a line with its head at the last place."""
     arrow(axes, *((z.real, z.imag) for z in places), colour=colour)
+
+
+def curl(
+    axes: Any, at: complex, radius: float, start: float, end: float, colour: str = GREY
+) -> None:
+    """Draw an arc about a place with its head at its end; start and end in rad."""
+    turned = at + radius * np.exp(1j * np.linspace(start, end, 40))
+    arrow(axes, *zip(turned.real, turned.imag, strict=True), colour=colour)
 
 
 def gauge(axes: Any, at: complex, letter: str = "P", radius: float = 8.0) -> None:
@@ -207,7 +218,12 @@ class Hand:
 
 
 def gripper(
-    axes: Any, at: complex, angles: tuple[float, float], *, length: float = 94.0, gap: float = 76.0
+    axes: Any,
+    at: complex,
+    angles: tuple[float, float],
+    *,
+    length: float | None = None,
+    gap: float = 76.0,
 ) -> Hand:
     """Draw two fingers that hang from a block about a place, with one hose for both.
 
@@ -217,11 +233,11 @@ def gripper(
         axes: Of matplotlib, with equal scales.
         at: Middle of the block's lower edge.
         angles: Of the left and the right finger, rad.
-        length: Of the fingers, mm.
+        length: Of the fingers, mm; without it they are those of Design 1.
         gap: Between their neutral surfaces, mm.
     """
     box(axes, at - gap / 2 - 24, at + gap / 2 + 24 + 22j, METAL)
-    shape_of = six_chambers(length * MM)
+    shape_of = six_chambers(None if length is None else length * MM)
     roots = at - gap / 2, at + gap / 2
     tips = tuple(
         draw_finger(axes, shape_of, angle, root=root, heading=-1j, mirrored=left)
@@ -237,7 +253,7 @@ def gripper(
 PAD_LAYERS = (
     ("rubber", 1.6, RUBBER),
     ("fabric", 0.4, METAL),
-    ("Velostat", 0.4, "#5A5A5A"),
+    ("Velostat", 0.4, VELOSTAT),
     ("fabric ", 0.4, METAL),
     ("base", 0.9, RUBBER),
 )
@@ -254,8 +270,8 @@ def pad(axes: Any, at: complex, scale: float = 1.0) -> dict[str, complex]:
         at: Lower left corner.
         scale: By how much it is enlarged.
     """
-    length, height = PAD_SIZE[0] / MM, 8.0
-    side, tall = ELEMENT_SIDE / MM, 3.0
+    length, side = PAD_SIZE[0] / MM, ELEMENT_SIDE / MM
+    height, tall = (float(printed(f"2.2-{part}-height")) for part in ("pad", "element"))
     found, y = {}, 0.0
 
     def part(x: float, low: float, wide: float, thick: float, colour: str) -> None:
