@@ -50,7 +50,7 @@ def figure_1_1() -> Figure:
     callout(axes, held.roots[1] - 7.8 - 46j, "flex sensor", 300 - 124j)
 
     cut = pad(axes, -6 - 190j, ENLARGED)
-    callout(axes, cut["element"], "feels where", 84 - 160j)
+    callout(axes, cut["element"], "feels where", 92 - 161j)
     callout(axes, cut["Velostat"], "feels how hard", 66 - 203j)
 
     for place, numbers, what in (

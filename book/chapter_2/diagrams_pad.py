@@ -34,7 +34,7 @@ SIDE = ELEMENT_SIDE / MM
 @figure("2.1", Provenance.PRINTED, drawing=True)
 def figure_2_1() -> Figure:
     """Draw skin in section beside the pad in section, layer by layer."""
-    drawn, axes = canvas((-17, 110), (-34, 50))
+    drawn, axes = canvas((-18, 114), (-34, 50))
     across, crest = np.linspace(0, 44, 200), 11.0
     border = across + 1j * (20 + 3.4 * np.cos(2 * np.pi * across / crest))
     shape(axes, [0 - 24j, 44 - 24j, *border[::-1]], "#F3C9B4", lw=0.7)
@@ -98,7 +98,7 @@ def figure_2_10() -> Figure:
     """Draw the gripper with the pad on one jaw, and the way of its signals."""
     drawn, axes = canvas((-14, 214), (-94, 50))
     box(axes, 0 + 14j, 84 + 30j, METAL)
-    box(axes, 24 + 30j, 60 + 46j, "#B4B9C0")
+    box(axes, 16 + 30j, 68 + 46j, "#B4B9C0")
     words(axes, 42 + 38j, "servomotor")
     for x in (4, 70):
         box(axes, x - 62j, x + 10 + 14j, METAL)
@@ -124,5 +124,5 @@ def figure_2_10() -> Figure:
     signal(axes, amplifiers + 24, board - 20, colour=BLUE)
     signal(axes, bridge + 24, 178 - 56j, 178 - 33j, colour=GREEN)
     signal(axes, board - 13j + 14, host + 11j + 14, colour=BLUE)
-    signal(axes, board + 13j, 188 + 38j, 60 + 38j, colour=VERMILION)
+    signal(axes, board + 13j, 188 + 38j, 68 + 38j, colour=VERMILION)
     return drawn

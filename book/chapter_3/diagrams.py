@@ -19,7 +19,7 @@ from softgrip.units import DEG, MM
 @figure("3.1", Provenance.PRINTED, drawing=True)
 def figure_3_1() -> Figure:
     """Draw the finger, and the beam that stands for it."""
-    drawn, axes = canvas((-12, 164), (-94, 36))
+    drawn, axes = canvas((-12, 164), (-97, 36))
     approximation(axes, 0j)
     return drawn
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from book.chapter_3.regulators import designed_on
 from book.chapter_4.identified_model import IdentifiedModel, identified_model
-from book.companion.finger_drawing import RUBBER, draw_section
+from book.companion.finger_drawing import RUBBER, draw_bent, draw_section
 from book.companion.style import BLUE, GREY, LINEAR, ORANGE, PRINTED, SKY, WIDTH, style
 from book.explore import finger_picture
 from book.explore.finger_picture import ACROSS, LENGTH, UP
@@ -48,13 +48,17 @@ def _draw(finger: Finger, pressure: float, title: str, axis: tuple[float, float]
     frequency = natural_frequency(finger, SCRIPT_MASS)
     with style(), mpl.rc_context({"figure.constrained_layout.use": False}):
         # Axes at fixed places: a layout engine would move them from frame to frame.
-        drawn = Figure(figsize=(WIDTH, 3.2))
-        left = drawn.add_axes((0.09, 0.2, 0.36, 0.62))
+        drawn = Figure(figsize=(WIDTH, 3.8))
+        left = drawn.add_axes((0.09, 0.54, 0.36, 0.36))
+        side = drawn.add_axes((0.05, 0.1, 0.42, 0.36))
         upper = drawn.add_axes((0.6, 0.58, 0.34, 0.32))
         lower = drawn.add_axes((0.6, 0.15, 0.34, 0.32))
         draw_section(left, section)
         left.set(xlim=(-18, 18), ylim=(-8, 27), xlabel="mm", aspect="equal")
         left.set_title(title, fontsize=9.5)
+        draw_bent(side, section, finger.length, bent[-1] * DEG, ORANGE, "bent")
+        side.set(xlim=ACROSS, ylim=UP, aspect="equal")
+        side.set_axis_off()
         drawn.text(0.09, 0.03, f"{frequency:.2f} rad/s with {SCRIPT_MASS} kg", fontsize=9.5)
         upper.plot(over / MPa, pushed, color=BLUE)
         upper.set(ylim=(0, 0.75), xlim=(0, axis[0]))
@@ -160,7 +164,7 @@ def draw_best(low: float, pressure: float, modulus: float, width: float = 0.4) -
 def _refused(message: str) -> Figure:
     """Draw what an infeasible problem says of itself."""
     with style():
-        drawn = Figure(figsize=(WIDTH, 3.2))
+        drawn = Figure(figsize=(WIDTH, 3.8))
         text = "\n".join(wrap(message.replace("; ", ";\n"), 58, replace_whitespace=False))
         drawn.text(0.04, 0.5, text, va="center", fontsize=9.5)
     return drawn

@@ -16,7 +16,7 @@ from softgrip.units import DEG
 def figure_4_1() -> Figure:
     """Draw the pump, the finger and the sensors, with a scale bar."""
     drawn, axes = canvas((-12, 316), (-150, 92))
-    _, root, _ = on_its_pump(axes, 70 * DEG, board="Arduino Mega")
+    _, root, _ = on_its_pump(axes, 70 * DEG)
     callout(axes, root + 24 - 5j, "flex sensor", root + 16 - 48j)
     callout(axes, root + 34 + 10j, "soft actuator", root + 112 - 8j)
     dimension(axes, 250 - 134j, 300 - 134j, "50 mm", aside=-1)
@@ -26,13 +26,13 @@ def figure_4_1() -> Figure:
 @figure("4.2", Provenance.PRINTED, drawing=True)
 def figure_4_2() -> Figure:
     """Draw the pump with the parameters of its equation."""
-    drawn, axes = canvas((-10, 330), (-24, 96))
+    drawn, axes = canvas((-10, 330), (-26, 96))
     ports = pump_with_symbols(axes, 0j)
     end = 308 + 14j
     hose(axes, ports.nozzle, ports.nozzle + 30, end + 34j, end)
     words(axes, end - 8j, "$P$, $C_i$", fontsize=11)
-    words(axes, end - 20j, "finger")
-    words(axes, 21 - 8j, "stepper motor")
+    words(axes, end - 22j, "finger")
+    words(axes, 21 - 8j, "motor")
     words(axes, 140 - 8j, "linear actuator: screw and slider")
     words(axes, ports.nozzle - 60 + 30j, "syringe")
     return drawn

@@ -17,7 +17,7 @@ from softgrip.units import DEG, MM
 @figure("5.3", Provenance.PRINTED, drawing=True)
 def figure_5_3() -> Figure:
     """Draw the finger, and the solid beam that stands for it."""
-    drawn, axes = canvas((-12, 164), (-94, 36))
+    drawn, axes = canvas((-12, 164), (-97, 36))
     approximation(axes, 0j, solid=True)
     return drawn
 
@@ -61,7 +61,7 @@ def figure_5_5() -> Figure:
     signals(upper, ((0.3, 1.25, "$\\theta_d$"), (6.05, 1.25, "$P$"), (8.9, 1.25, "$\\theta$"),
                     (0.75, 0.68, "$-$")))  # fmt: skip
     finish(upper, (-0.1, 9.4), (-0.4, 1.5))
-    _, root, _ = on_its_pump(lower, 60 * DEG, board="Arduino")
+    _, root, _ = on_its_pump(lower, 60 * DEG)
     callout(lower, root + 28 - 7j, "flex sensor", root + 14 - 46j)
     finish(lower, (-12, 316), (-140, 84))
     return drawn

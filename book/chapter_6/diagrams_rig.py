@@ -26,7 +26,7 @@ from softgrip.units import DEG, ML
 @figure("6.1", Provenance.PRINTED, drawing=True)
 def figure_6_1() -> Figure:
     """Draw the gripper on its pump, and the way of the signals."""
-    drawn, axes = canvas((-58, 346), (-196, 92))
+    drawn, axes = canvas((-58, 346), (-200, 92))
     volume, wide = printed("6.3-volume-of-the-syringe-in-ml") * ML, SYRINGES[1]
     driven = pump(axes, made=Syringe("", volume, wide.area))
     length = float(printed("6.3-length-of-a-finger-in-mm"))
@@ -38,11 +38,11 @@ def figure_6_1() -> Figure:
     words(axes, tee + 12 - 16j, "pressure", ha="left")
 
     driver, board, host = -18 - 34j, 60 - 96j, 60 - 164j
-    device(axes, driver, "stepper\ndriver", 62 + 28j, "#E6E8EC")
+    device(axes, driver, "stepper\ndriver", 62 + 34j, "#E6E8EC")
     device(axes, board, "Arduino", 76 + 26j)
     device(axes, host, "Simulink", 76 + 26j, "#E6E8EC")
-    signal(axes, driver + 14j + 6, driver + 6 + 55j, 0 + 21j, colour=BLUE)
-    signal(axes, board - 38, -18 - 96j, driver - 14j, colour=BLUE)
+    signal(axes, driver + 17j + 6, driver + 6 + 55j, 0 + 21j, colour=BLUE)
+    signal(axes, board - 38, -18 - 96j, driver - 17j, colour=BLUE)
     words(axes, -14 - 72j, "PWM", ha="left")
     signal(axes, host - 12 + 13j, board - 12 - 13j, colour=BLUE)
     signal(axes, board + 12 - 13j, host + 12 + 13j, colour=GREEN)
@@ -50,9 +50,9 @@ def figure_6_1() -> Figure:
     signal(axes, 166 - 74j, 116 - 74j, 116 - 96j, 98 - 96j, colour=GREEN)
     words(axes, 140 - 66j, "angles")
     callout(axes, held.roots[0] + 6.5 - 38j, "flex\nsensors", 244 - 136j)
-    callout(axes, held.roots[1] - 6 - 38j, "flex\nsensors", 244 - 136j)
+    callout(axes, held.roots[1] - 6 - 38j, "", 266 - 132j)
     for tip, side, name in zip(held.tips, (-1, 1), ("left", "right"), strict=True):
-        words(axes, tip + side * 20 - 18j, name)
+        words(axes, tip + side * 20 - 22j, name)
     return drawn
 
 

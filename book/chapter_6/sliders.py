@@ -237,8 +237,8 @@ REACH_PLOT = Plot(
     [
         Panel(
             [
-                Line("line_1", "line_2", "line of one pump", colour=BLUE),
                 Line("path_1", "path_2", "both angles, swinging", colour=ORANGE, width=1.4),
+                Line("line_1", "line_2", "line of one pump", colour=BLUE),
                 Line("feet_1", "feet_2", "foot at all frequencies", colour=PRINTED, dash="2 3"),
                 Line("miss_1", "miss_2", "out of reach", colour=VERMILION, dash="6 3"),
                 Dots("first", "second", "target", colour=MEASURED, radius=4.5),

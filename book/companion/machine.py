@@ -25,7 +25,7 @@ from softgrip.units import MM
 METAL, GLASS, CIRCUIT, MOTOR_COLOUR = "#C9CDD2", "#EEF5F9", "#CDE8DD", "#B4B9C0"
 INK, VELOSTAT = "#8A8F96", "#5A5A5A"
 """The conductive skin of an element, and the foil of the force layer."""
-SMALL = 8.5
+SMALL = 9.5
 """Size of the letters at a part, points."""
 MOTOR = 42.3
 """Side of a NEMA 17 motor, by its standard."""

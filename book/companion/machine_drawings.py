@@ -51,13 +51,13 @@ def approximation(axes: Any, at: complex, *, solid: bool = False) -> None:
     for place in (at, low):
         wall(axes, place, -b - 6, a + 6)
     draw_finger(axes, shape, root=at)
-    words(axes, at + length / 2 + (a + 9) * 1j, "finger: chambers between grooves")
+    words(axes, at + length / 2 + (a + 9) * 1j, "finger: six chambers")
     arrow(axes, *((z.real, z.imag) for z in (at + length / 2 - 8j, at + length / 2 - 24j)))
     if solid:
         box(axes, low - 1j * b, low + length + 1j * a, "#F2D7C4")
     else:
         draw_finger(axes, beam(s), root=low)
-    words(axes, low + length / 2 - (b + 22) * 1j, "cantilever beam")
+    words(axes, low + length / 2 - (b + 25) * 1j, "cantilever beam")
     dimension(axes, low - 1j * b, low + length - 1j * b, "$L$", aside=-5)
     for place, full in ((at, False), (low, solid)):
         middle = place + beside
@@ -120,9 +120,7 @@ def pump_with_symbols(axes: Any, at: complex) -> Ports:
     return ports
 
 
-def on_its_pump(
-    axes: Any, angle: float, *, board: str = "Arduino", computer: str = "computer"
-) -> tuple[Ports, complex, complex]:
+def on_its_pump(axes: Any, angle: float) -> tuple[Ports, complex, complex]:
     """Draw a finger on its pump with both sensors, board and computer.
 
     Returns:
@@ -136,10 +134,10 @@ def on_its_pump(
     hose(axes, ports.nozzle, ports.nozzle + 46, 306 - 18j, 250 - 18j, 200 - 18j, 160 - 24j, tap,
          tap - 30, root - 50 + 2j, root - 8 + 2j)  # fmt: skip
     gauge(axes, tap)
-    callout(axes, tap + 4 + 7j, "pressure sensor", tap + 40 + 13j)
+    callout(axes, tap + 4 + 7j, "pressure sensor", tap + 48 + 13j)
     mega, host = 44 - 62j, 44 - 116j
-    device(axes, mega, board, 66 + 22j)
-    device(axes, host, computer, 66 + 22j, "#E6E8EC")
+    device(axes, mega, "Arduino", 66 + 22j)
+    device(axes, host, "computer", 66 + 22j, "#E6E8EC")
     signal(axes, mega - 28 + 11j, 16 + 0j, colour=BLUE)
     signal(axes, host + 11j, mega - 11j, colour=GREY)
     signal(axes, mega - 11j, host + 11j, colour=GREY)

@@ -118,6 +118,7 @@
       options.marks = found_marks;
     }
     if (panel.equal) {
+      if (!panel.bare) options.marginBottom += 4; // letters below the line, at a broken height
       const across = wide - options.marginLeft - options.marginRight;
       const tall = across * (panel.y[1] - panel.y[0]) / (panel.x[1] - panel.x[0]);
       options.height = tall + options.marginTop + options.marginBottom;
