@@ -12,8 +12,8 @@ from book.companion.machine import (
     gripper,
     hose,
     pad,
+    pointer,
     pump,
-    signal,
     words,
 )
 from book.companion.style import BLUE, GREEN
@@ -38,9 +38,9 @@ def figure_1_1() -> Figure:
 
     board = 88 - 68j
     device(axes, board, "controller", 72 + 24j)
-    signal(axes, board - 36, 21 - 68j, 21 + 0j, colour=BLUE)
-    signal(axes, tee - 8, 104 - 20j, 104 - 56j, colour=GREEN)
-    signal(axes, 150 - 68j, 124 - 68j, colour=GREEN)
+    pointer(axes, board - 36, 21 - 68j, 21 + 0j, colour=BLUE)
+    pointer(axes, tee - 8, 104 - 20j, 104 - 56j, colour=GREEN)
+    pointer(axes, 150 - 68j, 124 - 68j, colour=GREEN)
 
     callout(axes, 21 + 36j, "stepper motor", 26 + 58j)
     callout(axes, 70 + 24j, "screw", 80 + 44j)

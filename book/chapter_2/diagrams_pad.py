@@ -17,8 +17,8 @@ from book.companion.machine import (
     device,
     dimension,
     pad,
+    pointer,
     shape,
-    signal,
     words,
 )
 from book.companion.style import BLUE, GREEN, PURPLE, VERMILION
@@ -51,8 +51,8 @@ def figure_2_1() -> Figure:
     words(axes, -2 + 15j, "upper\ndermis", ha="right")
     words(axes, -2 - 12j, "lower\ndermis", ha="right")
     cut = pad(axes, 62 - 2j, 1.1)
-    signal(axes, 45 + 17j, 54 + 17j, cut["element"] - 25.5 + 1j, colour=BLUE)
-    signal(axes, 45 - 12j, 54 - 12j, cut["Velostat"] - 42.5, colour=GREEN)
+    pointer(axes, 45 + 17j, 54 + 17j, cut["element"] - 25.5 + 1j, colour=BLUE)
+    pointer(axes, 45 - 12j, 54 - 12j, cut["Velostat"] - 42.5, colour=GREEN)
     words(axes, 84 + 14j, "feature-detection layer", color=BLUE)
     words(axes, 84 - 8j, "force-measurement layer", color=GREEN)
     return drawn
@@ -119,10 +119,10 @@ def figure_2_10() -> Figure:
     device(axes, bridge, "bridge, one\namplifier", 48 + 22j, "#E6E8EC")
     device(axes, board, "Arduino\nMEGA", 40 + 26j)
     device(axes, host, "computer", 40 + 22j, "#E6E8EC")
-    signal(axes, 4 - 30j, -10 - 30j, -10 - 90j, 90 - 90j, 90 - 20j, amplifiers - 24, colour=BLUE)
-    signal(axes, 4 - 50j, -4 - 50j, -4 - 84j, 97 - 84j, 97 - 56j, bridge - 24, colour=GREEN)
-    signal(axes, amplifiers + 24, board - 20, colour=BLUE)
-    signal(axes, bridge + 24, 178 - 56j, 178 - 33j, colour=GREEN)
-    signal(axes, board - 13j + 14, host + 11j + 14, colour=BLUE)
-    signal(axes, board + 13j, 188 + 38j, 68 + 38j, colour=VERMILION)
+    pointer(axes, 4 - 30j, -10 - 30j, -10 - 90j, 90 - 90j, 90 - 20j, amplifiers - 24, colour=BLUE)
+    pointer(axes, 4 - 50j, -4 - 50j, -4 - 84j, 97 - 84j, 97 - 56j, bridge - 24, colour=GREEN)
+    pointer(axes, amplifiers + 24, board - 20, colour=BLUE)
+    pointer(axes, bridge + 24, 178 - 56j, 178 - 33j, colour=GREEN)
+    pointer(axes, board - 13j + 14, host + 11j + 14, colour=BLUE)
+    pointer(axes, board + 13j, 188 + 38j, 68 + 38j, colour=VERMILION)
     return drawn

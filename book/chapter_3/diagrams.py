@@ -4,12 +4,20 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.patches import Polygon
 
-from book.companion.block_diagram import arrow
 from book.companion.exhibit import figure
 from book.companion.finger_drawing import AIR, RUBBER, bent, draw_finger, six_chambers, smooth
-from book.companion.machine import METAL, box, callout, canvas, curl, words
+from book.companion.machine import (
+    METAL,
+    box,
+    callout,
+    canvas,
+    corners,
+    curl,
+    pointer,
+    shape,
+    words,
+)
 from book.companion.machine_drawings import approximation, beam, bending, on_its_pump, wall
 from book.companion.style import BLUE, VERMILION
 from softgrip.provenance import Provenance
@@ -22,10 +30,6 @@ def figure_3_1() -> Figure:
     drawn, axes = canvas((-12, 164), (-97, 36))
     approximation(axes, 0j)
     return drawn
-
-
-def _rectangle(low: complex, high: complex) -> list[complex]:
-    return [low, complex(high.real, low.imag), high, complex(low.real, high.imag)]
 
 
 CHAMBER_ENLARGED = 1.7
@@ -42,9 +46,8 @@ def _chamber(axes: Any, at: complex, *, closed: bool, angle: float = 0.0) -> flo
     if closed:
         parts += [(0j, t + 1j * (a - t), RUBBER), (length - t + 0j, length + 1j * (a - t), RUBBER)]
     for low, high, colour in parts:
-        outline = at + bent(smooth(_rectangle(low, high)), length, angle)
-        places = np.column_stack([outline.real, outline.imag])
-        axes.add_patch(Polygon(places, fc=colour, ec="black", lw=0.8))
+        outline = at + bent(smooth(corners(low, high)), length, angle)
+        shape(axes, outline, colour)
     return length
 
 
@@ -52,10 +55,10 @@ def _chamber(axes: Any, at: complex, *, closed: bool, angle: float = 0.0) -> flo
 def figure_3_2() -> Figure:
     """Draw a chamber cut out, opened, closed and inflated, and how an angle is measured."""
     drawn, axes = canvas((-14, 158), (-190, 34))
-    shape = six_chambers()
+    finger = six_chambers()
     wall(axes, 0j, -10, 26)
-    draw_finger(axes, shape)
-    middle = shape.length / MM / 2
+    draw_finger(axes, finger)
+    middle = finger.length / MM / 2
     box(axes, middle - 16 - 7j, middle + 2 + 23j, "none", ec=VERMILION, ls="--", lw=1.4)
     cases = (("(b) open", False, 0.0), ("(c) closed", True, 0.0), ("(d) inflated", True, 26 * DEG))
     for k, (name, closed, angle) in enumerate(cases):
@@ -66,15 +69,14 @@ def figure_3_2() -> Figure:
             edge = at + length / 2 + side * length / 2 + 14j
             if not angle:
                 tail, head = (-12, -5) if closed else (-4, 8)
-                ends = edge + side * tail, edge + side * head
-                arrow(axes, *((z.real, z.imag) for z in ends), colour=BLUE)
+                pointer(axes, edge + side * tail, edge + side * head, colour=BLUE)
         if angle:
             curl(axes, at - 1 + 14j, 10, 2.5, 3.8, colour=VERMILION)
             curl(axes, at + length - 1 + 8j, 12, 0.5, -0.9, colour=VERMILION)
             words(axes, at + length + 16 + 4j, "$T$", fontsize=10)
         words(axes, at + length / 2 - (18 if angle else 14) * 1j, name)
     words(axes, middle - 12j, "(a)")
-    bending(axes, shape, 60 * DEG, -120j)
+    bending(axes, finger, 60 * DEG, -120j)
     words(axes, 30 - 172j, "(e)")
     return drawn
 
@@ -87,7 +89,7 @@ def figure_3_4() -> Figure:
     tip = bending(axes, beam(six_chambers().section), angle)
     outward = 1j * np.exp(-1j * angle)
     start, end = tip + 38 * outward, tip + 21 * outward
-    arrow(axes, (start.real, start.imag), (end.real, end.imag), colour=VERMILION)
+    pointer(axes, start, end, colour=VERMILION)
     words(axes, start - 8 + 4j, "$F(P)$", fontsize=11)
     return drawn
 

@@ -7,7 +7,13 @@ from book.companion.block_diagram import arrow, block, finish, sum_point
 from book.companion.block_diagram import words as signals
 from book.companion.exhibit import figure
 from book.companion.finger_drawing import bent, six_chambers
-from book.companion.machine import callout, canvas, curl, words
+from book.companion.machine import (
+    callout,
+    canvas,
+    curl,
+    line,
+    words,
+)
 from book.companion.machine_drawings import approximation, bending, on_its_pump
 from book.companion.style import BLUE, GREEN, GREY, WIDTH
 from softgrip.provenance import Provenance
@@ -31,8 +37,8 @@ def figure_5_4() -> Figure:
     radius = shape.length / MM / angle
     centre = -1j * radius
     for end in (0j, tip):
-        axes.plot([centre.real, end.real], [centre.imag, end.imag], color=BLUE, lw=0.8, ls=":")
-    axes.plot([centre.real], [centre.imag], "o", ms=3, color=BLUE)
+        line(axes, centre, end, colour=BLUE, ls=":")
+    line(axes, centre, colour=BLUE, marker="o", ms=3)
     curl(axes, centre, 18, np.pi / 2, np.pi / 2 - angle)
     words(axes, centre + 25 * np.exp(1j * (np.pi - angle) / 2), "$\\theta$", fontsize=10)
     words(axes, centre / 2 - 3, "$L_0 / \\theta$", ha="right", fontsize=10)

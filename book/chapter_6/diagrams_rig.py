@@ -12,8 +12,8 @@ from book.companion.machine import (
     gauge,
     gripper,
     hose,
+    pointer,
     pump,
-    signal,
     words,
 )
 from book.companion.machine_drawings import approximation, bending, pump_with_symbols
@@ -41,13 +41,13 @@ def figure_6_1() -> Figure:
     device(axes, driver, "stepper\ndriver", 62 + 34j, "#E6E8EC")
     device(axes, board, "Arduino", 76 + 26j)
     device(axes, host, "Simulink", 76 + 26j, "#E6E8EC")
-    signal(axes, driver + 17j + 6, driver + 6 + 55j, 0 + 21j, colour=BLUE)
-    signal(axes, board - 38, -18 - 96j, driver - 17j, colour=BLUE)
+    pointer(axes, driver + 17j + 6, driver + 6 + 55j, 0 + 21j, colour=BLUE)
+    pointer(axes, board - 38, -18 - 96j, driver - 17j, colour=BLUE)
     words(axes, -14 - 72j, "PWM", ha="left")
-    signal(axes, host - 12 + 13j, board - 12 - 13j, colour=BLUE)
-    signal(axes, board + 12 - 13j, host + 12 + 13j, colour=GREEN)
-    signal(axes, tee - 8, 70 - 24j, board + 10 + 13j, colour=GREEN)
-    signal(axes, 166 - 74j, 116 - 74j, 116 - 96j, 98 - 96j, colour=GREEN)
+    pointer(axes, host - 12 + 13j, board - 12 - 13j, colour=BLUE)
+    pointer(axes, board + 12 - 13j, host + 12 + 13j, colour=GREEN)
+    pointer(axes, tee - 8, 70 - 24j, board + 10 + 13j, colour=GREEN)
+    pointer(axes, 166 - 74j, 116 - 74j, 116 - 96j, 98 - 96j, colour=GREEN)
     words(axes, 140 - 66j, "angles")
     callout(axes, held.roots[0] + 6.5 - 38j, "flex\nsensors", 244 - 136j)
     callout(axes, held.roots[1] - 6 - 38j, "", 266 - 132j)

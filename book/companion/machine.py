@@ -45,10 +45,24 @@ def shape(axes: Any, corners: Iterable[complex], colour: str, **look: Any) -> No
     axes.add_patch(Polygon(places, **given | look))
 
 
+def corners(low: complex, high: complex) -> list[complex]:
+    """Return the corners of a rectangle from its lower left and its upper right one."""
+    return [low, complex(high.real, low.imag), high, complex(low.real, high.imag)]
+
+
 def box(axes: Any, low: complex, high: complex, colour: str, **look: Any) -> None:
     """Draw a rectangle from its lower left corner to its upper right one."""
-    others = complex(high.real, low.imag), complex(low.real, high.imag)
-    shape(axes, (low, others[0], high, others[1]), colour, **look)
+    shape(axes, corners(low, high), colour, **look)
+
+
+def line(axes: Any, *places: complex, colour: str = GREY, **look: Any) -> None:
+    """Draw a thin line through places."""
+    axes.plot(np.real(places), np.imag(places), **{"color": colour, "lw": 0.8} | look)
+
+
+def pointer(axes: Any, *places: complex, colour: str = GREY, style: str = "-|>") -> None:
+    """Draw a line through places with its head at the last one, such as a signal or a force."""
+    arrow(axes, *((z.real, z.imag) for z in places), colour=colour, style=style)
 
 
 def words(axes: Any, at: complex, text: str, **look: Any) -> None:
@@ -59,8 +73,8 @@ def words(axes: Any, at: complex, text: str, **look: Any) -> None:
 
 def callout(axes: Any, at: complex, text: str, place: complex, **look: Any) -> None:
     """Write at a place what is at another, with a thin line between them."""
-    axes.plot([at.real, place.real], [at.imag, place.imag], color=GREY, lw=0.7, zorder=4)
-    axes.plot([at.real], [at.imag], "o", ms=2.2, color=GREY, zorder=4)
+    line(axes, at, place, zorder=4)
+    line(axes, at, marker="o", ms=2.2, zorder=4)
     words(axes, place, text, zorder=5, bbox={"fc": "white", "ec": "none", "pad": 1.2}, **look)
 
 
@@ -76,7 +90,7 @@ def dimension(
     ends = start + aside * left, end + aside * left
     for place, moved in zip((start, end), ends, strict=True):
         if aside:
-            axes.plot([place.real, moved.real], [place.imag, moved.imag], color=colour, lw=0.6)
+            line(axes, place, moved, colour=colour)
     heads = {"arrowstyle": "<|-|>", "mutation_scale": 6, "lw": 0.8, "shrinkA": 0, "shrinkB": 0}
     first, last = ((z.real, z.imag) for z in ends)
     axes.annotate("", last, first, arrowprops={**heads, "color": colour})
@@ -91,16 +105,11 @@ def dimension(
 
 def hose(axes: Any, *places: complex) -> None:
     """Draw a hose along Bezier's curve: a start, then two handles and an end for each piece."""
-    corners = [(z.real, z.imag) for z in places]
-    path = Path(corners, [Path.MOVETO, *[Path.CURVE4] * (len(corners) - 1)])
+    through = [(z.real, z.imag) for z in places]
+    path = Path(through, [Path.MOVETO, *[Path.CURVE4] * (len(places) - 1)])
     for colour, width in ((BLACK, 4.4), (AIR, 2.8)):
         look = {"fc": "none", "ec": colour, "lw": width, "capstyle": "butt", "zorder": 0.9}
         axes.add_patch(PathPatch(path, **look))
-
-
-def signal(axes: Any, *places: complex, colour: str) -> None:
-    """Draw a signal: a line with its head at the last place."""
-    arrow(axes, *((z.real, z.imag) for z in places), colour=colour)
 
 
 def curl(
@@ -108,7 +117,7 @@ def curl(
 ) -> None:
     """Draw an arc about a place with its head at its end; start and end in rad."""
     turned = at + radius * np.exp(1j * np.linspace(start, end, 40))
-    arrow(axes, *zip(turned.real, turned.imag, strict=True), colour=colour)
+    pointer(axes, *turned, colour=colour)
 
 
 def gauge(axes: Any, at: complex, letter: str = "P", radius: float = 8.0) -> None:
@@ -167,8 +176,7 @@ def screw(axes: Any, start: complex, length: float, made: Screw, radius: float =
     lead = made.lead / MM
     for k in range(int(length / lead)):
         low, high = start + k * lead - 1j * radius, start + (k + 0.5) * lead + 1j * radius
-        axes.plot([low.real, high.real], [low.imag, high.imag], color=BLACK, lw=0.7,
-                  zorder=1)  # fmt: skip
+        line(axes, low, high, colour=BLACK, zorder=1)
 
 
 def pump(

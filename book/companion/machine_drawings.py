@@ -4,8 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from book.companion.block_diagram import arrow
-from book.companion.finger_drawing import draw_finger, six_chambers
+from book.companion.finger_drawing import AIR, RUBBER, draw_finger, six_chambers
 from book.companion.machine import (
     METAL,
     Ports,
@@ -16,11 +15,12 @@ from book.companion.machine import (
     dimension,
     gauge,
     hose,
+    line,
+    pointer,
     pump,
-    signal,
     words,
 )
-from book.companion.style import BLUE, GREEN, GREY, VERMILION
+from book.companion.style import BLUE, GREEN, VERMILION
 from softgrip.actuator.finger_mesh import FingerShape
 from softgrip.actuator.section import Section
 from softgrip.units import MM
@@ -52,20 +52,19 @@ def approximation(axes: Any, at: complex, *, solid: bool = False) -> None:
         wall(axes, place, -b - 6, a + 6)
     draw_finger(axes, shape, root=at)
     words(axes, at + length / 2 + (a + 9) * 1j, "finger: six chambers")
-    arrow(axes, *((z.real, z.imag) for z in (at + length / 2 - 8j, at + length / 2 - 24j)))
+    pointer(axes, at + length / 2 - 8j, at + length / 2 - 24j)
     if solid:
-        box(axes, low - 1j * b, low + length + 1j * a, "#F2D7C4")
+        box(axes, low - 1j * b, low + length + 1j * a, RUBBER)
     else:
         draw_finger(axes, beam(s), root=low)
     words(axes, low + length / 2 - (b + 25) * 1j, "cantilever beam")
     dimension(axes, low - 1j * b, low + length - 1j * b, "$L$", aside=-5)
     for place, full in ((at, False), (low, solid)):
         middle = place + beside
-        box(axes, middle - w / 2 - 1j * b, middle + w / 2 + 1j * a, "#F2D7C4")
+        box(axes, middle - w / 2 - 1j * b, middle + w / 2 + 1j * a, RUBBER)
         if not full:
-            box(axes, middle - w / 2 + t, middle + w / 2 - t + 1j * (a - t), "#B9DDF3", lw=0.6)
-        axes.plot(*zip(*[(z.real, z.imag) for z in (middle - w / 2 - 4, middle + w / 2 + 4)],
-                       strict=True), color=GREY, ls="--", lw=0.8)  # fmt: skip
+            box(axes, middle - w / 2 + t, middle + w / 2 - t + 1j * (a - t), AIR, lw=0.6)
+        line(axes, middle - w / 2 - 4, middle + w / 2 + 4, ls="--")
     left, right = low + beside - w / 2, low + beside + w / 2
     if solid:
         dimension(axes, left - 1j * b, right - 1j * b, "$b$", aside=-5)
@@ -76,9 +75,7 @@ def approximation(axes: Any, at: complex, *, solid: bool = False) -> None:
         dimension(axes, right - 1j * b, right, "$b$", aside=-5)
 
 
-def bending(
-    axes: Any, shape: FingerShape, angle: float, at: complex = 0j, *, named: str = "$\\theta$"
-) -> complex:
+def bending(axes: Any, shape: FingerShape, angle: float, at: complex = 0j) -> complex:
     """Draw a finger that is clamped on the left and bends down, with its angle; return its tip.
 
     Args:
@@ -86,7 +83,6 @@ def bending(
         shape: The finger.
         angle: By which its tip turns, rad.
         at: Its base, on the neutral surface.
-        named: What the angle is called.
     """
     wall(axes, at)
     length = shape.length / MM
@@ -95,10 +91,10 @@ def bending(
     corner = at + length / angle * np.tan(angle / 2)
     ahead = np.exp(-1j * angle)
     radius = abs(tip - corner) + 18
-    for start, end in ((at, corner + radius + 6), (corner, corner + (radius + 6) * ahead)):
-        axes.plot([start.real, end.real], [start.imag, end.imag], color=GREY, ls="--", lw=0.9)
+    line(axes, at, corner + radius + 6, ls="--")
+    line(axes, corner, corner + (radius + 6) * ahead, ls="--")
     curl(axes, corner, radius, 0, -angle)
-    words(axes, corner + (radius + 7) * np.exp(-0.5j * angle), named, fontsize=11)
+    words(axes, corner + (radius + 7) * np.exp(-0.5j * angle), "$\\theta$", fontsize=11)
     return tip
 
 
@@ -111,11 +107,11 @@ def pump_with_symbols(axes: Any, at: complex) -> Ports:
     pitch = middle + 21.1 + 12j
     dimension(axes, pitch + 8 + 0j, pitch + 16 + 0j, "$l$", aside=4)
     push = ports.slider + 12 + 13j
-    arrow(axes, (push.real, push.imag), (push.real + 22, push.imag), colour=VERMILION)
+    pointer(axes, push, push + 22, colour=VERMILION)
     words(axes, push + 28, "$v_s$", ha="left", fontsize=10)
     words(axes, ports.barrel, "$A$", fontsize=11)
     out = ports.nozzle + 4 + 12j
-    arrow(axes, (out.real - 8, out.imag), (out.real + 12, out.imag), colour=BLUE)
+    pointer(axes, out - 8, out + 12, colour=BLUE)
     words(axes, out + 2 + 7j, "$Q_i$", fontsize=10)
     return ports
 
@@ -138,10 +134,9 @@ def on_its_pump(axes: Any, angle: float) -> tuple[Ports, complex, complex]:
     mega, host = 44 - 62j, 44 - 116j
     device(axes, mega, "Arduino", 66 + 22j)
     device(axes, host, "computer", 66 + 22j, "#E6E8EC")
-    signal(axes, mega - 28 + 11j, 16 + 0j, colour=BLUE)
-    signal(axes, host + 11j, mega - 11j, colour=GREY)
-    signal(axes, mega - 11j, host + 11j, colour=GREY)
+    pointer(axes, mega - 28 + 11j, 16 + 0j, colour=BLUE)
+    pointer(axes, host + 11j, mega - 11j, style="<|-|>")
     words(axes, (mega + host) / 2 + 6, "USB", ha="left")
-    signal(axes, tap - 8, mega + 14 + 38j, mega + 14 + 11j, colour=GREEN)
-    signal(axes, root - 8 - 6j, 77 - 68j, colour=GREEN)
+    pointer(axes, tap - 8, mega + 14 + 38j, mega + 14 + 11j, colour=GREEN)
+    pointer(axes, root - 8 - 6j, 77 - 68j, colour=GREEN)
     return ports, root, tip
