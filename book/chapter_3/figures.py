@@ -6,7 +6,6 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from book.chapter_3.finger_drawing import draw_bent, draw_section
 from book.chapter_3.torque_and_bending import (
     DESIGNS,
     LENGTH,
@@ -15,6 +14,7 @@ from book.chapter_3.torque_and_bending import (
 )
 from book.companion.band import LABEL, shade
 from book.companion.exhibit import figure
+from book.companion.finger_drawing import draw_bent, draw_section
 from book.companion.style import (
     BLUE,
     GREEN,

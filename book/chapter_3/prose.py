@@ -2,6 +2,7 @@
 
 from math import sqrt
 
+from book.chapter_3.diagrams import CHAMBER_ENLARGED
 from book.chapter_3.figures import (
     BENT_TO,
     FX_PRO,
@@ -115,6 +116,7 @@ def _least_times(step: int) -> list[float]:
 
 
 WORDS = {
+    "chamber_enlarged": lambda: f"{CHAMBER_ENLARGED:g}",
     # What n and M are, by reading.
     "n_script": lambda: f"{SCRIPT_POWER}",
     "m_script": lambda: f"{SCRIPT_MASS}",

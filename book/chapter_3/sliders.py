@@ -8,11 +8,13 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from book.chapter_3.finger_drawing import draw_section
 from book.chapter_3.regulators import designed_on
 from book.chapter_4.identified_model import IdentifiedModel, identified_model
+from book.companion.finger_drawing import RUBBER, draw_bent, draw_section
 from book.companion.style import BLUE, GREY, LINEAR, ORANGE, PRINTED, SKY, WIDTH, style
-from book.explore.plot import Band, Level, Line, Outline, Panel, Plot
+from book.explore import finger_picture
+from book.explore.finger_picture import ACROSS, LENGTH, UP
+from book.explore.plot import Band, Bent, Dimension, Level, Line, Outline, Panel, Plot
 from book.explore.scan import Numbers, scan
 from book.explore.settled import entered
 from book.explore.small_matrices import times
@@ -46,13 +48,17 @@ def _draw(finger: Finger, pressure: float, title: str, axis: tuple[float, float]
     frequency = natural_frequency(finger, SCRIPT_MASS)
     with style(), mpl.rc_context({"figure.constrained_layout.use": False}):
         # Axes at fixed places: a layout engine would move them from frame to frame.
-        drawn = Figure(figsize=(WIDTH, 3.2))
-        left = drawn.add_axes((0.09, 0.2, 0.36, 0.62))
+        drawn = Figure(figsize=(WIDTH, 3.8))
+        left = drawn.add_axes((0.09, 0.54, 0.36, 0.36))
+        side = drawn.add_axes((0.05, 0.1, 0.42, 0.36))
         upper = drawn.add_axes((0.6, 0.58, 0.34, 0.32))
         lower = drawn.add_axes((0.6, 0.15, 0.34, 0.32))
         draw_section(left, section)
         left.set(xlim=(-18, 18), ylim=(-8, 27), xlabel="mm", aspect="equal")
         left.set_title(title, fontsize=9.5)
+        draw_bent(side, section, finger.length, bent[-1] * DEG, ORANGE, "bent")
+        side.set(xlim=ACROSS, ylim=UP, aspect="equal")
+        side.set_axis_off()
         drawn.text(0.09, 0.03, f"{frequency:.2f} rad/s with {SCRIPT_MASS} kg", fontsize=9.5)
         upper.plot(over / MPa, pushed, color=BLUE)
         upper.set(ylim=(0, 0.75), xlim=(0, axis[0]))
@@ -82,6 +88,9 @@ def finger(top: Number, bottom: Number, wall: Number) -> dict[str, Any]:
     return {
         "rubber_x": [-half, half, half, -half],
         "rubber_y": [-bottom, -bottom, top, top],
+        "a_ends": [0.0, top],
+        "b_ends": [-bottom, 0.0],
+        "t_ends": [inner, half],
         "chamber_x": [-inner, inner, inner, -inner],
         "chamber_y": [0.0, 0.0, top - wall, top - wall],
         "pressure": over,
@@ -100,18 +109,29 @@ FINGER_PLOT = Plot(
                 Outline("rubber_x", "rubber_y", "rubber", colour=GREY, fill=0.3),
                 Outline("chamber_x", "chamber_y", "air", colour=SKY, fill=0.6),
                 Level(0.0, label="neutral surface"),
+                Dimension(-19.0, "a_ends", "a"),
+                Dimension(-19.0, "b_ends", "b"),
+                Dimension([-15.0, 15.0], -8.0, "w"),
+                Dimension("t_ends", 10.0, "t"),
             ],
-            x=(-18, 18), y=(-8, 26), x_label="mm", equal=True, share=0.42, left=30,
+            x=(-21, 21), y=(-10, 26), x_label="mm", equal=True, share=0.5, left=36,
+        ),
+        Panel(
+            [
+                Outline([-8, 0, 0, -8], [-8, -8, 26, 26], colour=GREY, fill=0.5),
+                Bent([0, LENGTH, LENGTH, 0], "rubber_y", "widest", LENGTH, colour=RUBBER),
+            ],
+            x=ACROSS, y=UP, equal=True, bare=True, share=0.5,
         ),
         Panel(
             [Line("pressure", "torque", "torque", colour=BLUE)],
             x=(0, LARGEST), y=(0, 0.75), x_label="pressure (MPa)", y_label="torque (N m)",
-            height=230, share=0.29, left=40,
+            height=230, share=0.5, left=40,
         ),
         Panel(
             [Line("pressure", "angle", "bending", colour=ORANGE)],
             x=(0, LARGEST), y=(0, 300), x_label="pressure (MPa)", y_label="angle (deg)",
-            height=230, share=0.29, left=40,
+            height=230, share=0.5, left=40,
         ),
     ],
     title=f"{{most:.3f}} N m and {{widest:.0f}} deg at {LARGEST:g} MPa, {{frequency:.2f}} rad/s",
@@ -144,7 +164,7 @@ def draw_best(low: float, pressure: float, modulus: float, width: float = 0.4) -
 def _refused(message: str) -> Figure:
     """Draw what an infeasible problem says of itself."""
     with style():
-        drawn = Figure(figsize=(WIDTH, 3.2))
+        drawn = Figure(figsize=(WIDTH, 3.8))
         text = "\n".join(wrap(message.replace("; ", ";\n"), 58, replace_whitespace=False))
         drawn.text(0.04, 0.5, text, va="center", fontsize=9.5)
     return drawn
@@ -208,8 +228,9 @@ LQR_PLOT = Plot(
                 Line("time", "command", "command u", colour=GREY, dash="6 3", step=True),
                 Line("time", "angle", "angle / step", colour=LINEAR),
             ],
-            x=(0, DURATION), y=(-1.1, 1.4), x_label="time (s)", y_label="share",
-        )
+            x=(0, DURATION), y=(-1.1, 1.4), x_label="time (s)", y_label="share", share=0.64,
+        ),
+        finger_picture.finger("angle", "time", "step"),
     ],
     title=f"within {100 * BAND:g} % after {{settled:.2f}} s",
     cases=[("late", f"not within {100 * BAND:g} % in {DURATION:g} s")],

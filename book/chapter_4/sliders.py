@@ -11,6 +11,7 @@ from book.chapter_4.pid_gains import pid_gains
 from book.chapter_4.pushed import pushed
 from book.companion.choices import choice
 from book.companion.style import LINEAR, LUDWICK, MEASURED, PRINTED, VERMILION
+from book.explore.finger_picture import finger
 from book.explore.plot import Band, Bars, Level, Line, Panel, Plot
 from book.explore.scan import Numbers, scan
 from book.explore.settled import entered
@@ -247,8 +248,9 @@ PID_PLOT = Plot(
                 Band("low", "high", label=f"within {100 * BAND:g} %", colour=PRINTED),
                 Line("time", "angle", "angle", colour=LUDWICK),
             ],
-            x=(0, DURATION), y=(0, 160), x_label="time (s)", y_label="angle (deg)",
-        )
+            x=(0, DURATION), y=(0, 160), x_label="time (s)", y_label="angle (deg)", share=0.64,
+        ),
+        finger("angle", "time"),
     ],
     title=f"within {100 * BAND:g} % after {{settled:.1f}} s",
     cases=[("late", f"not within {100 * BAND:g} % in {DURATION:g} s")],

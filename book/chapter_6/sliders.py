@@ -7,8 +7,10 @@ from typing import Any
 import numpy as np
 
 from book.chapter_6.figures_model import SPA
-from book.companion.style import PRINTED
-from book.explore.plot import Level, Line, Panel, Plot
+from book.chapter_6.plane_of_angles import in_plane
+from book.companion.style import BLUE, MEASURED, ORANGE, PRINTED, VERMILION
+from book.explore.finger_picture import gripper as fingers
+from book.explore.plot import Dots, Level, Line, Panel, Plot
 from book.explore.scan import Numbers, scan
 from book.explore.small_matrices import Matrix, bilinear, matrix, numbers, taken, times
 from softgrip.arrays import Floats, Number, chosen
@@ -197,6 +199,60 @@ def moved(
     return after
 
 
+FARTHEST = 20.0
+"""Frequency up to which the path of the foot is drawn, rad/s."""
+
+
+def reach(frequency: Number, spread: Number, first: Number, second: Number) -> dict[str, Any]:
+    """Return what one pump reaches of a target, in the plane of both angles.
+
+    Args:
+        frequency: At which command and target swing, rad/s; 0 is at rest.
+        spread: As of `gripper_step`.
+        first, second: The target, deg.
+    """
+    gripper, target = as_far_apart(spread), (first, second)
+    here = in_plane(gripper, frequency)
+    foot = here.foot(target)
+    x, y = here.path(target, np.linspace(0, 2 * np.pi, 91))
+    every = in_plane(gripper, np.geomspace(0.05, FARTHEST, 80)).foot(target)
+    long = np.array([-10.0, 140.0])
+    return {
+        "line_1": long * np.cos(here.turned),
+        "line_2": long * np.sin(here.turned),
+        "path_1": x,
+        "path_2": y,
+        "feet_1": every[0],
+        "feet_2": every[1],
+        "miss_1": [first, foot[0]],
+        "miss_2": [second, foot[1]],
+        "foot_1": foot[0],
+        "foot_2": foot[1],
+        "missed": 100 * here.missed(target),
+        "turned": here.turned / DEG,
+    }
+
+
+REACH_PLOT = Plot(
+    [
+        Panel(
+            [
+                Line("path_1", "path_2", "both angles, swinging", colour=ORANGE, width=1.4),
+                Line("line_1", "line_2", "line of one pump", colour=BLUE),
+                Line("feet_1", "feet_2", "foot at all frequencies", colour=PRINTED, dash="2 3"),
+                Line("miss_1", "miss_2", "out of reach", colour=VERMILION, dash="6 3"),
+                Dots("first", "second", "target", colour=MEASURED, radius=4.5),
+                Dots("foot_1", "foot_2", "nearest", colour=VERMILION, radius=4.5),
+            ],
+            x=(-4, 95), y=(-4, 95), x_label="angle of SPA 1 (deg)", y_label="angle of SPA 2 (deg)",
+            equal=True, share=0.6,
+        ),
+        fingers(("foot_1", "foot_2"), "", SPA, share=0.4),
+    ],
+    title="{missed:.1f} % of the target is out of reach; the line stands at {turned:.1f} deg",
+)  # fmt: skip
+
+
 GRIPPER_PLOT = Plot(
     [
         Panel(
@@ -206,8 +262,9 @@ GRIPPER_PLOT = Plot(
                 Line("time", "SPA_1", "SPA 1", colour=SPA[0]),
                 Line("time", "SPA_2", "SPA 2", colour=SPA[1], dash="6 3"),
             ],
-            x=(0, DURATION), y=(0, 90), x_label="time (s)", y_label="angle (deg)",
-        )
+            x=(0, DURATION), y=(0, 90), x_label="time (s)", y_label="angle (deg)", share=0.64,
+        ),
+        fingers(("SPA_1", "SPA_2"), "time", SPA),
     ],
     title="largest command {peak:.1f} units",
 )  # fmt: skip

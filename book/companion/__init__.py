@@ -1,5 +1,6 @@
 """What every page shares: exhibits, claims with their verdicts, and how they are shown."""
 
+from book.companion.absent import absent
 from book.companion.chips import (
     show_assumptions,
     show_bases,
@@ -11,6 +12,7 @@ from book.companion.show import show
 from book.companion.what_if import what_if
 
 __all__ = [
+    "absent",
     "show",
     "show_assumptions",
     "show_bases",

@@ -88,6 +88,12 @@ class Exhibit:
         return self.number.split(".")[1].isdigit()
 
     @property
+    def page(self) -> str:
+        """The page that it stands on; Chapter 1 is the front page."""
+        chapter = self.number.split(".")[0]
+        return "index" if chapter == "1" else f"chapter-{chapter}"
+
+    @property
     def command(self) -> str:
         """The command that makes this exhibit alone."""
         return f"make {self.name}"

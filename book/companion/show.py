@@ -33,7 +33,8 @@ ROLE, EMPHASIS = re.compile(r"\{[a-z:]+\}`([^`]*)`"), re.compile(r"\*([^*]+)\*")
 """A MyST role, which is for the book only, and what stands out."""
 
 
-def _in_static_book() -> bool:
+def in_static_book() -> bool:
+    """Tell whether a page of the book is built, and not a notebook run."""
     return os.environ.get("SOFTGRIP_BOOK") == "static"
 
 
@@ -73,7 +74,7 @@ class Shown:
     def verdicts(self) -> str:
         """The verdicts on the numbers printed at this place, counted."""
         item = self.exhibit
-        if not (item.in_dissertation and self.numbered):
+        if item.drawing or not (item.in_dissertation and self.numbered):
             return ""
         entries = ledger(int(item.number.split(".")[0]), [item.title])
         count = Counter(entry.outcome for entry in entries)
@@ -135,7 +136,7 @@ class Shown:
         return f"{body}<p>{title} {words}</p><p><small>{strip}</small></p>"
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
-        if self.numbered and _in_static_book():
+        if self.numbered and in_static_book():
             return {"text/markdown": self._myst()}
         return {"text/html": self._html()}
 
@@ -150,5 +151,5 @@ def show(title: str, *, logs: Sequence[Path | str] = (), numbered: bool = True) 
             alone.
     """
     item = with_logs(exhibit(title), logs) if logs else exhibit(title)
-    made = save(item, FOLDER) if numbered and _in_static_book() else make(item)
+    made = save(item, FOLDER) if numbered and in_static_book() else make(item)
     return Shown(item, made, numbered)

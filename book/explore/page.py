@@ -51,10 +51,12 @@ class Explorer:
         )
         if self.plot is None:
             picture = f'<img src="{self.frames[0]}" alt="{html.escape(self.alt)}">'
-            role, told, values = "", "", ""
+            role, told, play, values = "", "", "", ""
         else:
             picture, role = "", ' role="img"'
             told = '<p class="told" aria-live="polite"></p>'
+            moves = any(getattr(m, "time", "") for panel in self.plot.panels for m in panel.marks)
+            play = '<button type="button" class="play">play</button>' if moves else ""
             values = '<details class="values"><summary>values</summary><div></div></details>'
         key = (
             _key([mark for panel in self.plot.panels for mark in panel.marks]) if self.plot else ""
@@ -63,7 +65,7 @@ class Explorer:
             f'<figure class="explorer" id="{self.name}">'
             f'<div class="controls">{controls}</div>{told}'
             f'<div class="panels"{role}>{picture}</div>{key}'
-            f'<div class="more"><button type="button">reset</button>{values}'
+            f'<div class="more"><button type="button" class="reset">reset</button>{play}{values}'
             '<details><summary>as code</summary><code class="call"></code></details>'
             f'<a class="link" href="#{self.name}">link to this state</a></div>'
             "<noscript>The sliders need JavaScript.</noscript></figure>"

@@ -93,6 +93,53 @@ class Outline:
 
 
 @dataclass(frozen=True)
+class Bent:
+    """A shape along a finger, bent to an arc with it; it moves if the angle does.
+
+    The finger leaves the origin along the x axis and bends downwards, or hangs down.
+
+    Attributes:
+        x, y: Corners on the straight finger: along it from its base, and above its neutral
+            surface, mm.
+        angle: By which its tip turns, in degrees if multiplied by `times`: one number, or one for
+            each of `time`.
+        length: Of the finger, mm.
+        time: Seconds; the last is shown until the reader has it played.
+        hanging: Where it hangs on the x axis, mm, and bends to the left; None for one that lies.
+        mirrored: Whether it bends to the other side.
+    """
+
+    x: From
+    y: From
+    angle: From
+    length: From
+    time: From = ""
+    times: From = 1.0
+    label: str = ""
+    colour: str = BLUE
+    hanging: float | None = None
+    mirrored: bool = False
+    kind: str = field(default="bent", init=False)
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """A line with a head at both ends, and a letter in its middle.
+
+    Attributes:
+        x, y: Of both ends; one number where they have the same.
+        text: The letter.
+    """
+
+    x: From
+    y: From
+    text: str
+    label: str = ""
+    colour: str = BLACK
+    kind: str = field(default="dimension", init=False)
+
+
+@dataclass(frozen=True)
 class Dots:
     """Points; `x` may be numbers and `y` words, in the order of the axis."""
 
@@ -123,7 +170,11 @@ class Bars:
     kind: str = field(default="bars", init=False)
 
 
-Mark = Line | Band | Span | Level | Outline | Dots | Bars
+Mark = Line | Band | Span | Level | Outline | Bent | Dimension | Dots | Bars
+TAKEN = (
+    "x", "y", "low", "high", "at", "marked", "angle", "length", "time", "times",
+)  # fmt: skip
+"""Fields of marks that may name what a law returns."""
 
 
 @dataclass(frozen=True)
@@ -137,6 +188,7 @@ class Panel:
         height: Pixels at full width.
         share: Of the figure's width, beside other panels.
         equal: Whether a unit is as long on both axes; the height then follows.
+        bare: Whether it is a picture, without axes; on a telephone it is as wide as tall.
         left: Room for the labels on the left, pixels.
         title: As `Plot.title`.
     """
@@ -149,6 +201,7 @@ class Panel:
     height: int = 300
     share: float = 1.0
     equal: bool = False
+    bare: bool = False
     left: int = 48
     title: str = ""
 
@@ -176,7 +229,7 @@ class Plot:
                 taken |= {
                     value
                     for key, value in vars(mark).items()
-                    if key in ("x", "y", "low", "high", "at", "marked") and isinstance(value, str)
+                    if key in TAKEN and isinstance(value, str)
                 }
         return taken - {""}
 

@@ -26,8 +26,16 @@
   }
 
   const colour = (name) => (name === "#000000" ? "currentColor" : name);
-  const from = (found, what) =>
-    typeof what === "string" ? found[what] : typeof what === "number" ? [what] : what;
+  const from = (found, what) => {
+    const numbers = typeof what === "string" ? found[what] : what;
+    return typeof numbers === "number" ? [numbers] : numbers;
+  };
+
+  // Of the sample that is shown at a moment; the last one without a moment.
+  const placed = (times, moment) => {
+    const k = moment === undefined ? -1 : times.findIndex((t) => t >= moment);
+    return k < 0 ? times.length - 1 : k;
+  };
 
   // Marks of Observable Plot for a mark of book/explore/plot.py.
   const marks = {
@@ -52,6 +60,33 @@
       return P.line(x, { x, y, curve: "linear-closed", stroke: colour(m.colour), strokeWidth: 1.8,
         strokeDasharray: m.dash || null, fill: m.fill ? colour(m.colour) : "none", fillOpacity: m.fill, clip: true });
     },
+    bent: (P, m, f) => {
+      const angle = from(f, m.angle), times = from(f, m.times)[0], length = from(f, m.length)[0];
+      const turn = (angle[m.time ? placed(from(f, m.time), f.moment) : angle.length - 1] * times * Math.PI) / 180;
+      const x = Array.from(from(f, m.x)), y = Array.from(from(f, m.y)), side = m.mirrored ? -1 : 1, out = [];
+      x.forEach((begin, k) => { // edges in parts so short that they can be bent
+        const next = (k + 1) % x.length, parts = Math.ceil(Math.abs(x[next] - begin) / 2) || 1;
+        for (let j = 0; j < parts; j++) {
+          const s = begin + ((x[next] - begin) * j) / parts, high = y[k] + ((y[next] - y[k]) * j) / parts;
+          const half = (turn * s) / length / 2, chord = Math.abs(half) < 1e-9 ? s : (s * Math.sin(half)) / half;
+          const along = chord * Math.cos(half) + high * Math.sin(2 * half);
+          const up = side * (high * Math.cos(2 * half) - chord * Math.sin(half));
+          out.push(m.hanging === null ? [along, up] : [m.hanging + up, -along]);
+        }
+      });
+      return P.line(out, { curve: "linear-closed", stroke: "currentColor", strokeWidth: 1,
+        fill: m.colour, fillOpacity: 0.85, className: "bent" });
+    },
+    dimension: (P, m, f) => {
+      const x = from(f, m.x), y = from(f, m.y), last = (v) => v[v.length - 1];
+      const middle = [[(x[0] + last(x)) / 2, (y[0] + last(y)) / 2]], level = y[0] === last(y);
+      return [
+        P.link([0], { x1: x[0], y1: y[0], x2: last(x), y2: last(y), stroke: colour(m.colour), strokeWidth: 1,
+          markerStart: "arrow-reverse", markerEnd: "arrow" }),
+        P.text(middle, { text: () => m.text, fill: colour(m.colour), fontStyle: "italic", fontSize: 14,
+          ...(level ? { dy: -9 } : { dx: 5, textAnchor: "start" }) }),
+      ];
+    },
     dots: (P, m, f) => {
       const x = from(f, m.x), y = typeof m.y[0] === "string" && Array.isArray(m.y) ? m.y : from(f, m.y);
       return P.dot(x, { x, y, r: m.radius, fill: colour(m.colour), clip: true });
@@ -67,8 +102,10 @@
     const ends = (axis) => axis.map((end) => (typeof end === "string" && found[end] ? found[end][0] : end));
     const panel = { ...asked, x: ends(asked.x), y: ends(asked.y) };
     const P = window.Plot, words = typeof panel.y[0] === "string";
-    const wide = Math.max(150, Math.min(room, 700) * (room < 520 ? 1 : panel.share) - 6);
-    const found_marks = panel.marks.map((m) => marks[m.kind](P, m, found, panel));
+    const share = room >= 520 ? panel.share : panel.bare ? 0.6 : 1;
+    const wide = Math.max(150, Math.min(room, 700) * share - 6);
+    const found_marks = panel.marks.flatMap((m) => marks[m.kind](P, m, found, panel));
+    if (found.moment !== undefined && !panel.bare) found_marks.push(P.ruleX([found.moment], { stroke: "currentColor", clip: true }));
     const options = {
       width: wide, height: panel.height, marginLeft: panel.left, marginRight: 14, marginTop: 22, marginBottom: 40,
       style: { fontSize: "12px", overflow: "hidden" },
@@ -76,9 +113,16 @@
       y: { domain: panel.y, label: panel.y_label || null, labelArrow: "none", ...(words ? { padding: 0.3 } : { ticks: 5 }) },
       marks: [P.gridX({ ticks: 5 }), ...(words ? [] : [P.gridY({ ticks: 5 })]), ...found_marks],
     };
+    if (panel.bare) {
+      options.marginLeft = options.marginRight = options.marginBottom = 4;
+      options.x.axis = options.y.axis = null;
+      options.marks = found_marks;
+    }
     if (panel.equal) {
-      const tall = (wide - panel.left - 14) * (panel.y[1] - panel.y[0]) / (panel.x[1] - panel.x[0]);
-      options.height = tall + 62;
+      if (!panel.bare) options.marginBottom += 4; // letters below the line, at a broken height
+      const across = wide - options.marginLeft - options.marginRight;
+      const tall = across * (panel.y[1] - panel.y[0]) / (panel.x[1] - panel.x[0]);
+      options.height = tall + options.marginTop + options.marginBottom;
     }
     return P.plot(options);
   }
@@ -86,7 +130,7 @@
   // A table of all curves: a column for each array that a mark takes.
   function table(plot, found) {
     const columns = new Map();
-    for (const panel of plot.panels) for (const m of panel.marks) for (const key of ["x", "y", "low", "high", "at", "marked"])
+    for (const panel of plot.panels) for (const m of panel.marks) for (const key of ["x", "y", "low", "high", "at", "marked", "angle"])
       if (typeof m[key] === "string" && found[m[key]]) columns.set(m[key], found[m[key]]);
     const rows = Math.max(...Array.from(columns.values(), (c) => c.length));
     const made = document.createElement("table"), head = made.createTHead().insertRow();
@@ -112,7 +156,9 @@
     const controls = it.sliders.map((s) => root.querySelector(`[name="${s.name}"]`));
     const beginning = it.sliders.map((s) => s.start);
     const values = () => it.sliders.map((s, i) => valueAt(s, +controls[i].value));
-    let asked = 0;
+    // What moves by itself, and how long, s.
+    const moving = it.plot?.panels.flatMap((p) => p.marks).find((m) => m.time)?.time;
+    let asked = 0, playing = 0, shown, moment;
 
     function compute(now) {
       const words = it.sliders.flatMap((s, i) => (typeof now[i] === "string" ? [now[i]] : []));
@@ -139,8 +185,8 @@
         const hit = it.plot.cases.find(([name]) => found[name][0]);
         const title = told(hit ? hit[1] : it.plot.title, found);
         part("told").textContent = title;
-        const room = part("panels").clientWidth || 640;
-        part("panels").replaceChildren(...it.plot.panels.map((panel) => drawn(panel, found, room)));
+        shown = found;
+        paint();
         part("panels").setAttribute("aria-label", [it.alt, ...state, title].join("; "));
         if (part("values").open) part("values").lastElementChild.replaceChildren(table(it.plot, found));
       }
@@ -148,10 +194,28 @@
       part("call").textContent = `${it.call}(${moved.map(([s, value]) => `${s.name}=${JSON.stringify(value)}`).join(", ")})`;
       part("link").href = `#${id}?${moved.map(([s, value]) => `${s.name}=${encodeURIComponent(value)}`).join("&")}`;
     }
+    function paint() {
+      const room = part("panels").clientWidth || 640;
+      part("panels").replaceChildren(...it.plot.panels.map((panel) => drawn(panel, { ...shown, moment }, room)));
+    }
+    // In the time that the real one would take.
+    function play() {
+      const begin = performance.now(), mine = ++playing;
+      const next = (now) => {
+        if (mine !== playing) return;
+        moment = Math.max(0, (now - begin) / 1000);
+        if (moment >= shown[moving][shown[moving].length - 1]) moment = undefined;
+        paint();
+        if (moment !== undefined) requestAnimationFrame(next);
+      };
+      requestAnimationFrame(next);
+    }
     // One picture a frame, however fast the slider moves.
     const ask = () => { asked ||= requestAnimationFrame(draw); };
 
     function put(places) {
+      playing++; // what plays ends
+      moment = undefined;
       controls.forEach((control, i) => { control.value = places[i]; });
       draw();
     }
@@ -167,7 +231,8 @@
     for (const control of controls) control.addEventListener("input", ask);
     // All frames are fetched when one is wanted, so that the next is there at once.
     root.addEventListener("pointerenter", () => it.frames?.forEach((src) => { new Image().src = src; }), { once: true });
-    root.querySelector("button").addEventListener("click", () => put(beginning));
+    part("reset").addEventListener("click", () => put(beginning));
+    part("play")?.addEventListener("click", play);
     part("values")?.addEventListener("toggle", draw);
     addEventListener("hashchange", () => fromAddress(true));
     // Paper shows where the sliders began.

@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 
+from book.companion.finger_drawing import bent
 from book.explore.law import recorded
 from tests.book.build.test_pages import Visit
 from tests.book.explore.page_laws import page_laws
@@ -80,7 +81,7 @@ def test_every_slider_moves_its_picture(chapters):
     for name, page in chapters.items():
         box = page.locator(f"#{name}")
         for handle in box.locator("input[type=range]").all():
-            box.locator("button").click()  # some sliders move nothing where another one is
+            box.locator(".reset").click()  # some sliders move nothing where another one is
             before = shown_by(box)
             last = handle.input_value() == handle.get_attribute("max")
             for _ in range(5):  # a step may change nothing that a digit of a pixel shows
@@ -93,7 +94,7 @@ def test_every_slider_moves_its_picture(chapters):
             assert handle.get_attribute("aria-valuetext")
             assert page.locator(f"label[for={handle.get_attribute('id')}]").inner_text()
             moved += 1
-        box.locator("button").click()
+        box.locator(".reset").click()
     assert moved >= 30
 
 
@@ -106,12 +107,12 @@ def test_a_state_can_be_linked_and_reset(chapters):
         "document.querySelector('#explore-finger .link').href.includes('top=15')"
     )
     linked, state = box.locator(".link").get_attribute("href"), shown_by(box)
-    box.locator("button").click()
+    box.locator(".reset").click()
     assert shown_by(box) == begin
     page.evaluate("hash => { location.hash = hash; }", linked)
     page.wait_for_function("document.querySelector('#explore-finger [name=top]').value === '10'")
     assert shown_by(box) == state
-    box.locator("button").click()
+    box.locator(".reset").click()
 
 
 def test_values_are_told_in_words_and_in_a_table(chapters):
@@ -123,6 +124,38 @@ def test_values_are_told_in_words_and_in_a_table(chapters):
     box.locator(".values summary").click()
     page.wait_for_selector("#explore-finger .values table td")
     assert box.locator(".values th").all_inner_texts()[0] == "rubber x"
+
+
+def drawn_path(page, name):
+    """Return the corners of the last shape that is bent, pixels."""
+    path = page.locator(f"#{name} .bent path").last.get_attribute("d")
+    return np.array(re.findall(r"([-\d.]+),([-\d.]+)", path), float)
+
+
+def test_a_finger_is_bent_by_the_angle_that_its_law_gives(chapters):
+    found = drawn_path(chapters["explore-finger"], "explore-finger")
+    angle = np.radians(page_laws()["finger"].law(top=20, bottom=4, wall=1.5)["widest"])
+    straight = np.array([-4j, 94 - 4j, 94 + 20j, 20j])
+    part = np.linspace(0, 1, 47, endpoint=False)  # of edges of 2 mm
+    edges = zip(straight, np.roll(straight, -1), strict=True)
+    corners = [a + part * (b - a) if a.imag == b.imag else np.array([a]) for a, b in edges]
+    expected = bent(np.concatenate(corners), 94, angle)
+    assert len(found) == len(expected)
+    scale = np.ptp(found[:, 0]) / np.ptp(expected.real)
+    for pixels, mm in ((found[:, 0], expected.real), (-found[:, 1], expected.imag)):
+        assert np.ptp(pixels - scale * mm) < 0.5
+
+
+def test_what_is_played_moves_and_ends_where_it_was(chapters):
+    for name in ("explore-lqr", "explore-pid", "explore-gripper-step", "explore-gripper-push"):
+        page = chapters[name]
+        before = drawn_path(page, name)
+        page.locator(f"#{name} .play").click()
+        page.wait_for_timeout(300)
+        assert np.abs(drawn_path(page, name) - before).max() > 5, name
+        page.locator(f"#{name} .reset").click()
+        np.testing.assert_array_equal(drawn_path(page, name), before)
+    assert chapters["explore-pump"].locator("#explore-pump .play").count() == 0
 
 
 def test_a_redraw_takes_ten_frames_at_most(chapters):

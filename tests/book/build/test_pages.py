@@ -154,8 +154,7 @@ def test_exhibits_bear_their_own_numbers_and_provenance(html, soups, read_alone)
     from softgrip.provenance import data_file
 
     for item in exhibits():
-        page = html / f"chapter-{item.number.split('.')[0]}.html"
-        place = soups[page.resolve()].find(id=item.label)
+        place = soups[(html / f"{item.page}.html").resolve()].find(id=item.label)
         assert place is not None, item.title
         caption = place.find(class_="caption-number")
         assert caption.text.strip() == item.title

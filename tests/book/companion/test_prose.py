@@ -16,7 +16,7 @@ NOT_NUMBERS = re.compile(
     r"\{\{ \S+ \}\}|\{[\w:]+\}`[^`]*`|`[^`]*`|\$[^$]*\$|\]\([^)]*\)|<[^>]*>"
     r"|(?:Sections?|Chapters?|Figures?|Tables?|Eqs?\.|Theorem|Assumption|Remark)"
     rf" \(?[\d.]+\w?\)?{LIST}"
-    rf"|(?:Designs?|SPA|Variances?|[Rr]ows?) \d{LIST}"
+    rf"|(?:Designs?|SPA|Variances?|[Rr]ows?|[Pp]arts?) \d{LIST}"
     r"|Ecoflex™? \d\d-\d\d|Dragon Skin \d\d|Mold Star \d\d\w*|SORTA-Clear \d\d"
     r"|(?:NEMA|MEGA|Mega|Python|version) [\d.]+|\b[A-Za-z]+_?\d\w*\b"
     r"|\b(?:In|\d\d? [A-Z][a-z]+) (?:19|20)\d\d\b|\b\d{4}\.\d{5}\b"
@@ -42,6 +42,7 @@ NO_PROSE = re.compile(
 PAGES = {page.stem: page.read_text("utf-8") for page in sorted(BOOK.glob("*.md"))}
 ROOMS = {
     **{chapter: [f"chapter-{chapter}"] for chapter in chapters()},
+    "1": [],  # its captions alone
     "author": ["author"],
     "live": ["commissioning", "protocol", "rig"],
     "companion": ["index", "ledger"],

@@ -40,7 +40,7 @@ from softgrip.gripper.gripper_loop import run_gripper
 from softgrip.gripper.internal_model import InternalModelController, controller_matrices
 from softgrip.gripper.inversion import mean_inverse
 from softgrip.gripper.plant import FingerDynamics
-from softgrip.gripper.reach import project
+from softgrip.gripper.reach import direction, outside_share, project
 from softgrip.gripper.shaping_filter import low_pass
 from softgrip.logs.pushes import reference_noise
 from softgrip.logs.reader import kept_log
@@ -112,6 +112,9 @@ def finger(top, bottom, wall):
         "frequency": natural_frequency(made, SCRIPT_MASS),
         "most": pushed_by[-1],
         "widest": bent[-1],
+        "a_ends": [0, top],
+        "b_ends": [-bottom, 0],
+        "t_ends": [15 - wall, 15],
         "rubber_x": [-15, 15, 15, -15],
         "rubber_y": [-bottom, -bottom, top, top],
         "chamber_x": np.array([-1, 1, 1, -1]) * (15 - wall),
@@ -243,10 +246,38 @@ def gripper_push(bandwidth, spread, disturbance):
     return gripper_run(bandwidth, spread, 0.0, disturbance)
 
 
+def reach(frequency, spread, first, second):
+    gripper, target = as_far_apart(spread), np.array([first, second])
+    q = direction(gripper, frequency)
+    nearest = np.vdot(q, target) * q
+    swing = np.exp(1j * np.linspace(0, 2 * np.pi, 91))
+    path = np.real(np.outer(nearest, swing))
+    every = direction(gripper, np.geomspace(0.05, 20, 80))
+    feet = np.real(every * (every.conj() @ target)[:, None])
+    # The long axis of the ellipse is the first direction of the plane that q spans.
+    axis = np.linalg.svd(np.column_stack([q.real, q.imag]))[0][:, 0]
+    axis = axis * np.sign(axis.sum())
+    line = np.outer(axis, [-10, 140])
+    return {
+        "line_1": line[0],
+        "line_2": line[1],
+        "path_1": path[0],
+        "path_2": path[1],
+        "feet_1": feet[:, 0],
+        "feet_2": feet[:, 1],
+        "miss_1": [first, nearest[0].real],
+        "miss_2": [second, nearest[1].real],
+        "foot_1": nearest[0].real,
+        "foot_2": nearest[1].real,
+        "missed": 100 * outside_share(gripper, target, frequency),
+        "turned": np.degrees(np.arctan2(axis[1], axis[0])),
+    }
+
+
 CHAPTERS = {
     function.__name__: function
     for function in (element, bandwidth, finger, lqr, pump, capacity_filter, pid, sizing,
-                     new_material, ludwick_law, gripper_step, gripper_push)
+                     new_material, ludwick_law, reach, gripper_step, gripper_push)
 }  # fmt: skip
 CASES = [
     pytest.param(name, words, id="-".join([name, *words.values()]))

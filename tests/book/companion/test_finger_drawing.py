@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from book.chapter_3.finger_drawing import bent_outline
+from book.companion.finger_drawing import bent_outline
 from softgrip.actuator.section import Section
 
 SECTION = Section(0.02, 0.004, 0.03, 0.0015)
