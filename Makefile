@@ -9,7 +9,7 @@ READY := $(VENV)/ready
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help book book-version test lint lab figures ledger accept bench rig-test picture lock clean
+.PHONY: help book book-version test lint lab figures ledger accept bench bench-book rig-test picture lock clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z][a-z%-]*:.*## ' $(MAKEFILE_LIST) | sort \
@@ -66,6 +66,9 @@ accept: $(READY)  ## make today's verdicts the expected ones (look at the diff)
 
 bench: $(READY)  ## measure the speed of simulation and control: book/_build/bench.json
 	@$(BIN)/python -m tests.bench
+
+bench-book: $(READY)  ## measure the build of the book and its pages against a former commit: hours
+	@$(BIN)/python -m tests.bench.book
 
 rig-test: $(READY)  ## run the rig's tests on a board: make rig-test PORT=/dev/ttyACM0 (the motor turns)
 	@test -n "$(PORT)" || { echo "make rig-test PORT=/dev/ttyACM0"; exit 2; }
