@@ -1,6 +1,6 @@
 """Figures with sliders: laws that the page computes itself, and frames where it cannot."""
 
 from book.explore.explorer import explore
-from book.explore.sliders import Range, Slider, slider
+from book.explore.sliders import Range, Slider
 
-__all__ = ["Range", "Slider", "explore", "slider"]
+__all__ = ["Range", "Slider", "explore"]

@@ -46,14 +46,13 @@ def _arrange(controls: Sequence[widgets.Widget], *below: widgets.Widget) -> widg
 
 def redrawn(draw: Callable[..., Figure], sliders: Mapping[str, Slider], alt: str) -> widgets.Widget:
     """Return the widget: its sliders, what went wrong if anything did, and the picture."""
-    fine = {name: slider.finer() for name, slider in sliders.items()}
-    controls = {name: _control(slider) for name, slider in fine.items()}
+    controls = {name: _control(slider) for name, slider in sliders.items()}
     picture, complaint = widgets.HTML(), widgets.HTML()
 
     def redraw() -> None:
         values = {name: control.value for name, control in controls.items()}
         frame = render(draw, values)
-        picture.value = _image(frame, alt, [*fine.values()], [*values.values()])
+        picture.value = _image(frame, alt, [*sliders.values()], [*values.values()])
 
     def answer(_change: object) -> None:
         try:

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from book.explore.frames import MAX_FRAMES
 from softgrip.errors import InvalidInputError
 
 Value = float | str
@@ -21,13 +20,6 @@ def _find(wanted: Value, values: Sequence[Value]) -> int | None:
     numbers = [(abs(v - wanted), i) for i, v in enumerate(values) if not isinstance(v, str)]
     off, nearest = min(numbers, default=(math.inf, 0))
     return nearest if off <= 1e-9 * abs(wanted) else None
-
-
-def _tidy(values: np.ndarray) -> list[float]:
-    """Round far below the step: a figure prints 0.3, not 0.30000000000000004."""
-    step = float(np.min(np.abs(np.diff(values))))
-    digits = 9 - math.floor(math.log10(step)) if step > 0 else 15
-    return [round(float(value), digits) for value in values]
 
 
 @dataclass(frozen=True)
@@ -44,8 +36,6 @@ class Slider:
     unit: str = ""
     default: Value | None = None
     """The value shown first; None is the first value."""
-    continuous: bool = False
-    """Whether a live slider may also stop between the values, which are then all numbers."""
 
     def __post_init__(self) -> None:
         name = f"slider {self.label!r}"
@@ -56,11 +46,8 @@ class Slider:
         if len(values) < 2:
             raise InvalidInputError(name, expected="at least two values", got=values)
         for value in values:
-            if isinstance(value, str) and not self.continuous:
-                continue
-            if not (isinstance(value, Real) and math.isfinite(value)):
-                expected = "finite numbers" + ("" if self.continuous else " or strings")
-                raise InvalidInputError(name, expected=expected, got=value)
+            if not (isinstance(value, str) or (isinstance(value, Real) and math.isfinite(value))):
+                raise InvalidInputError(name, expected="finite numbers or strings", got=value)
         if len(set(values)) < len(values):
             raise InvalidInputError(name, expected="values that differ", got=values)
         if self.default is not None and _find(self.default, values) is None:
@@ -87,48 +74,6 @@ class Slider:
             "name": name, "label": self.label, "unit": self.unit, "start": self.start,
             "values": self.values, "steps": len(self.values) - 1,
         }  # fmt: skip
-
-    def finer(self, times: int = 10) -> "Slider":
-        """Return a slider with ``times`` as many steps, if this one is continuous.
-
-        >>> slider(0, 1, 2, label="Strain").finer(4).values
-        (0.0, 0.25, 0.5, 0.75, 1.0)
-        """
-        if not self.continuous:
-            return self
-        count = len(self.values)
-        at = np.linspace(0, count - 1, (count - 1) * times + 1)
-        between = np.interp(at, np.arange(count), np.asarray(self.values, dtype=float))
-        values = _tidy(between)
-        values[::times] = [float(value) for value in self.values]
-        return Slider(values, self.label, self.unit, self.values[self.start], continuous=True)
-
-
-def slider(
-    low: float, high: float, steps: int, *, label: str, unit: str = "", default: float | None = None
-) -> Slider:
-    """Return a slider over evenly spaced numbers, which a live page divides more finely.
-
-    Args:
-        low, high: The extremes; low < high.
-        steps: How many values there are, extremes included: 2 to 125. Each is a frame in the built
-            page.
-        label: What is varied, as the reader is told.
-        unit: Written behind the number.
-        default: The value shown first, one of the steps; without it, ``low``.
-
-    Raises:
-        InvalidInputError: If an argument is outside its range.
-
-    >>> slider(0, 60, 4, label="Pressure", unit="kPa", default=20).values
-    (0.0, 20.0, 40.0, 60.0)
-    """
-    name = f"slider {label!r}"
-    if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise InvalidInputError(name, expected="finite low < high", got=(low, high))
-    if not 2 <= steps <= MAX_FRAMES:
-        raise InvalidInputError(name, expected=f"2 to {MAX_FRAMES} steps", got=steps)
-    return Slider(_tidy(np.linspace(low, high, steps)), label, unit, default, continuous=True)
 
 
 @dataclass(frozen=True)
