@@ -64,7 +64,8 @@ def approximation(axes: Any, at: complex, *, solid: bool = False) -> None:
         box(axes, middle - w / 2 - 1j * b, middle + w / 2 + 1j * a, RUBBER)
         if not full:
             box(axes, middle - w / 2 + t, middle + w / 2 - t + 1j * (a - t), AIR, lw=0.6)
-        line(axes, middle - w / 2 - 4, middle + w / 2 + 4, ls="--")
+        neutral = middle + (a - b) / 2 * 1j if full else middle
+        line(axes, neutral - w / 2 - 4, neutral + w / 2 + 4, ls="--")
     left, right = low + beside - w / 2, low + beside + w / 2
     if solid:
         dimension(axes, left - 1j * b, right - 1j * b, "$b$", aside=-5)

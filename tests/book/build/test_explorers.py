@@ -72,8 +72,8 @@ def test_the_page_computes_what_python_computes(name, chapters):
 
 
 def shown_by(box):
-    # Clips are numbered through the page, picture by picture.
-    return re.sub(r"plot-clip-\d+", "clip", box.locator(".panels").inner_html())
+    # Clips and heads of lines are numbered through the page, picture by picture.
+    return re.sub(r"plot-(clip|marker)-\d+", "", box.locator(".panels").inner_html())
 
 
 def test_every_slider_moves_its_picture(chapters):
