@@ -15,6 +15,7 @@ from book.build import (
     execution,
     judging,
     light,
+    notebooks,
     numbering,
     tracing,
     vendor,
@@ -131,6 +132,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     api.setup(app)
     claim_role.setup(app)
     light.setup(app)
+    notebooks.setup(app)
     equations.setup(app)
     numbering.setup(app)
     app.connect("config-inited", use_local_scripts)

@@ -16,10 +16,14 @@ LANGUAGE = {"name": "python", "pygments_lexer": "ipython3", "file_extension": ".
 """What a kernel, once it runs, has Lab write of itself."""
 
 
+def has_cells(page: Path) -> bool:
+    """Tell whether a page is there and has code."""
+    return page.is_file() and "```{code-cell}" in page.read_text(encoding="utf-8")
+
+
 def pages() -> list[Path]:
     """Return the pages that have cells."""
-    found = sorted((ROOT / "book").glob("*.md"))
-    return [page for page in found if "```{code-cell}" in page.read_text(encoding="utf-8")]
+    return [page for page in sorted((ROOT / "book").glob("*.md")) if has_cells(page)]
 
 
 def saved(page: Path) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import jupytext
+import nbformat
 import pytest
 from bs4 import BeautifulSoup
 
@@ -177,6 +178,16 @@ def test_chapters_open_as_notebooks(root):
         if cells := file.read_text().count("```{code-cell}"):
             found = [cell for cell in jupytext.read(file).cells if cell.cell_type == "code"]
             assert len(found) == cells, file.name
+
+
+def test_each_page_with_code_offers_itself_as_a_notebook(html, root):
+    for file in (root / "book").glob("*.md"):
+        if cells := file.read_text().count("```{code-cell}"):
+            link = f'href="_sources/{file.stem}.ipynb"'
+            assert link in (html / f"{file.stem}.html").read_text(), file.name
+            found = nbformat.read(html / "_sources" / f"{file.stem}.ipynb", as_version=4)
+            nbformat.validate(found)
+            assert sum(cell.cell_type == "code" for cell in found.cells) == cells, file.name
 
 
 def test_each_equation_has_its_links_and_its_row(html, soups):
