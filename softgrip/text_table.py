@@ -120,9 +120,10 @@ class TextTable:
         at = self.column(name)
         cells = self.cells(at)
         found = np.array([number(cell, self.decimal) for cell in cells])
-        for line, cell, value in zip(self.lines, cells, found, strict=True):
-            if not (np.abs(value) <= LARGEST or (missing and is_missing(cell))):
-                raise self.refusal(f"a finite number under {self.names[at]}", repr(cell), line)
+        for k in np.flatnonzero(~(np.abs(found) <= LARGEST)).tolist():
+            if not (missing and is_missing(cells[k])):
+                got = repr(cells[k])
+                raise self.refusal(f"a finite number under {self.names[at]}", got, self.lines[k])
         return found
 
 
@@ -390,12 +391,12 @@ def _left_out(chosen: _Block, found: Sequence[_Block]) -> list[str]:
 
 
 def _decimal_of(path: Path, rows: Sequence[Row], *, points: bool) -> str:
-    columns = [
-        k
-        for k, column in enumerate(zip(*(row for _, row in rows), strict=True))
-        if 2 * sum(map(is_number, column)) > len(column)
+    columns = zip(*(row for _, row in rows), strict=True)
+    numeric = ((k, [*map(is_number, column)]) for k, column in enumerate(columns))
+    mostly = [(k, flags) for k, flags in numeric if 2 * sum(flags) > len(flags)]
+    cells = [
+        (line, row[k]) for n, (line, row) in enumerate(rows) for k, flags in mostly if flags[n]
     ]
-    cells = [(line, row[k]) for line, row in rows for k in columns if is_number(row[k])]
     try:
         return decimal_sign(cells, points_may_be_thousands=points)
     except TwoReadingsError as error:

@@ -18,7 +18,8 @@ CASES = Path(os.environ.get("SOFTGRIP_CASES_DIR", BESIDE / "cases" / "own-data")
 LONG = (
     *("board/test_firmware_noise.py", "board/test_record_emulated.py", "rig/test_record_pad.py"),
     *("book/companion/test_expected.py", "book/explore/test_laws.py", "book/twin/test_study.py"),
-    *("book/chapter_2/test_own_pad.py", "book/live/test_emulated_figures.py"),
+    *("book/twin/test_cluster.py", "book/chapter_2/test_own_pad.py"),
+    "book/live/test_emulated_figures.py",
 )
 """Files that take longest, by the table at the end of a run, though they have few tests."""
 

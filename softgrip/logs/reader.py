@@ -120,15 +120,16 @@ def _whole_rows(
         repairs.append(f"the last line, {last}, was left out: not all of it is finite")
     doubled = [k for k in rows[1:] if table.rows[k] == table.rows[k - 1]]
     repairs += [f"line {table.lines[k]}, the same as the one before, was left out" for k in doubled]
-    rows = [k for k in rows if k not in set(doubled)]
+    rows = sorted({*rows} - {*doubled})
     for name, values in raw.items():
-        lacking = [k for k in rows if not np.isfinite(values[k])]
+        finite = np.isfinite(values).tolist()
+        lacking = [k for k in rows if not finite[k]]
         if lacking and not strict and name != "time":
             more = f" and {len(lacking) - 1} more" if len(lacking) > 1 else ""
             repairs.append(f"line {table.lines[lacking[0]]}{more}, without {name}, was left out")
-            rows = [k for k in rows if k not in set(lacking)]
+            rows = [k for k in rows if finite[k]]
         for k in rows:
-            if not np.isfinite(values[k]):
+            if not finite[k]:
                 got = repr(table.rows[k][chosen[name][0]])
                 raise table.refusal(f"a finite number under {name}", got, table.lines[k])
     if not rows:
