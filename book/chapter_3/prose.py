@@ -18,6 +18,7 @@ from book.chapter_3.figures import (
 )
 from book.chapter_3.figures_control import (
     BANDS,
+    FASTER,
     RUNS,
     SHARE,
     STEPS,
@@ -183,6 +184,10 @@ WORDS = {
     "printed_on_rig": lambda: f"{lqr_settling_on_rig('printed'):.1f}",
     "fast_on_rig": lambda: f"{lqr_settling_on_rig('fast'):.1f}",
     "settles": lambda: f"{linear_settling_time(FINGER, Weights(), criteria()[0]):.1f}",
+    "faster_p": lambda: f"{FASTER.p:g}",
+    "faster_rate": lambda: f"{FASTER.q[1]:g}",
+    "printed_rate": lambda: f"{Weights().q[1]:g}",
+    "faster_settles": lambda: f"{linear_settling_time(FINGER, FASTER, criteria()[0]):.2f}",
     "any_settles": lambda: f"{least_time(step_size() / DEG, criteria()[1]):.1f}",
     "pole_bound": lambda: f"{sqrt(Weights().q[0] / Weights().q[1]):.2f}",
     "level": lambda: "{:.1f}, {:.1f} and {:.1f}".format(
