@@ -71,7 +71,7 @@ def show_sliders() -> Html:
         f'{head}<figure class="what-if explorer" id="{NAME}" aria-label="{LABEL}">{_controls()}'
         '<div class="strip"><p class="told" role="status"></p><ul class="counts"></ul></div>'
         '<div class="more">'
-        '<button type="button">reset</button>'
+        '<button type="button" class="reset">reset</button>'
         '<details><summary>as code</summary><code class="call"></code></details>'
         f'<a class="link" href="#{NAME}">link to this state</a></div>'
         '<div class="moved"></div><div class="rest"></div><div class="left"></div>'
