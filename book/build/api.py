@@ -19,7 +19,7 @@ def first_line(name: str) -> str:
     """Return the first line of the docstring of a module or package.
 
     >>> first_line("softgrip.units")
-    'Units: the package is in SI; these are for what is read, shown, or typed.'
+    'Factors into SI: multiply on the way in, divide on the way out.'
     """
     place = ROOT.joinpath(*name.split("."))
     file = place / "__init__.py" if place.is_dir() else place.with_suffix(".py")

@@ -9,6 +9,7 @@ from jupyter_cache import get_cache
 from sphinx.application import Sphinx
 
 from book.build import (
+    accessible,
     api,
     claim_role,
     equations,
@@ -129,6 +130,7 @@ def add_scripts(
 
 def setup(app: Sphinx) -> dict[str, Any]:
     """Connect the parts to the stages of a build."""
+    accessible.setup(app)
     api.setup(app)
     claim_role.setup(app)
     light.setup(app)

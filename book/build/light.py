@@ -1,7 +1,8 @@
 """What a page loads: no icon, index or script that it has no use for, no picture before its turn.
 
 The theme has each page load all 2,000 icons of its font as a script (1.5 MB), and the index of the
-search, which only the page of the search reads.
+search, which only the page of the search reads. Jupyter Book has each load Thebe, which would run
+cells on a server elsewhere, and that twice, which the browser takes for an error.
 """
 
 import re
@@ -14,8 +15,9 @@ ICONS = "_static/scripts/fontawesome.js"
 ICON = re.compile(r'"?([\w-]+)"?:\[\d+,\d+,\[[^\]]*\],"[0-9a-f]*",(?:"[^"]*"|\[[^\]]*\])\],?')
 """An icon in the theme's script: width, height, other names, code and outline, by its name."""
 USED = re.compile(r"\bfa-([a-z0-9-]+)")
-SEARCH = re.compile(
-    r'\s*<script src="[^"]*(?:searchtools|language_data|searchindex)\.js"></script>'
+UNUSED = re.compile(
+    r'\s*<script(?: src="[^"]*(?:searchtools|language_data|searchindex)\.js">'
+    r'| async="async" src="[^"]*sphinx-thebe\.js[^"]*">|>const THEBE_JS_URL[^<]*)</script>'
 )
 
 
@@ -33,14 +35,18 @@ def with_icons(script: str, names: set[str]) -> str:
     return ICON.sub(kept, script)
 
 
-def without_search(head: str) -> str:
-    """Return the head of a page without the scripts of the search."""
-    return SEARCH.sub("", head)
+def light_head(head: str) -> str:
+    """Return the head of a page without the scripts that it does not use.
+
+    >>> light_head('<script src="searchindex.js"></script><script>const THEBE_JS_URL = 1</script>')
+    ''
+    """
+    return UNUSED.sub("", head)
 
 
 def lighten(_app: Sphinx, _page: str, _template: str, context: dict[str, Any], _tree: Any) -> None:
     """Give the template of pages what lightens their heads, and have pictures wait."""
-    context["without_search"] = without_search
+    context["light_head"] = light_head
     if body := context.get("body"):
         context["body"] = body.replace("<img ", '<img loading="lazy" ')
 

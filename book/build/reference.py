@@ -25,7 +25,10 @@ FOLDER = "api"
 """Below the pages of the book."""
 INVENTORY = "objects.inv"
 STAMP = "sources.sha256"
-STYLE = ROOT / "book" / "_static" / "softgrip.css"
+BOOK = ROOT / "book"
+STATIC = [BOOK / "_static" / name for name in ("softgrip.css", "scrolling.js")]
+TEMPLATE = BOOK / "_templates" / "layout.html"
+"""What its pages share with those of the book."""
 CODE = ("softgrip", "book", "tests")
 INHERITED = {"set_score_request"}
 """What scikit-learn adds to a regressor, without a docstring that Sphinx could read."""
@@ -35,7 +38,13 @@ ELSEWHERE = ("sklearn.exceptions.NotFittedError", "csv.Error", "sphinx.errors.Ex
 SETTINGS: dict[str, Any] = {
     "project": "softgrip",
     "html_title": "softgrip: the reference",
-    "extensions": ["sphinx.ext.autodoc", "sphinx.ext.viewcode", "book.build.reference"],
+    "extensions": [
+        "sphinx.ext.autodoc",
+        "sphinx.ext.viewcode",
+        "book.build.accessible",
+        "book.build.light",
+        "book.build.reference",
+    ],
     "nitpicky": True,
     "nitpick_ignore": [("py:exc", name) for name in ELSEWHERE],
     "autodoc_typehints": "none",
@@ -43,8 +52,11 @@ SETTINGS: dict[str, Any] = {
     "toc_object_entries": False,  # else each of hundreds of source pages copies thousands of them
     "html_theme": "sphinx_book_theme",
     "html_theme_options": {"navbar_persistent": [], "use_download_button": False},
-    "html_static_path": [str(STYLE)],
-    "html_css_files": [STYLE.name],
+    "html_context": {"default_mode": "auto"},  # else the theme's script complains of none
+    "html_static_path": [str(file) for file in STATIC],
+    "html_css_files": [STATIC[0].name],
+    "html_js_files": [STATIC[1].name],
+    "templates_path": [str(TEMPLATE.parent)],
     "html_copy_source": False,
     "html_sidebars": {"_modules/**": []},  # a tree of all pages for each of hundreds takes as long
 }
@@ -54,7 +66,7 @@ def packages() -> list[str]:
     """Return all packages, each before what is in it.
 
     >>> packages()[:3]
-    ['book.author', 'book.build', 'book.chapter_2']
+    ['book.author', 'book.build', 'book.chapter_1']
     """
     found = (file.parent for top in CODE[:2] for file in (ROOT / top).rglob("__init__.py"))
     return sorted({".".join(folder.relative_to(ROOT).parts) for folder in found} - {"book"})
@@ -103,7 +115,7 @@ def write_pages(folder: Path) -> None:
 def sources() -> str:
     """Return a digest of what the reference is made of."""
     files = sorted(file for top in CODE for file in (ROOT / top).rglob("*.py"))
-    lines = [f"{file.relative_to(ROOT)} {digest(file)}" for file in [*files, STYLE]]
+    lines = [f"{file.relative_to(ROOT)} {digest(file)}" for file in [*files, *STATIC, TEMPLATE]]
     lines += [sys.version, digest(ROOT / "environment.lock")]
     return hashlib.sha256("\n".join(lines).encode()).hexdigest()
 

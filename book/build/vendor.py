@@ -12,6 +12,7 @@ import shutil
 import subprocess
 import tarfile
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -130,11 +131,12 @@ def _install(package: Package, place: Path) -> None:
                     shutil.copy(file, put)
 
 
-def ensure(folder: Path) -> bool:
+def ensure(folder: Path, packages: Sequence[Package] = PACKAGES) -> bool:
     """Make sure that the scripts lie in a folder; fetch them if they do not.
 
     Args:
         folder: What is laid beside the pages; emptied first if it holds other versions.
+        packages: What it shall hold.
 
     Returns:
         bool: False where the npm registry cannot be reached: the folder is then left empty.
@@ -142,14 +144,14 @@ def ensure(folder: Path) -> bool:
     Raises:
         DataFileError: If an archive is not, to the bit, the one that was pinned.
     """
-    wanted = json.dumps([[p.name, p.version, p.integrity, p.files] for p in PACKAGES])
+    wanted = json.dumps([[p.name, p.version, p.integrity, p.files] for p in packages])
     stamp = folder / STAMP
     if stamp.is_file() and stamp.read_text() == wanted:
         return True
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     try:
-        for package in PACKAGES:
+        for package in packages:
             _install(package, folder)
     except (UnreachableError, ImportError):
         shutil.rmtree(folder)

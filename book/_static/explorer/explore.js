@@ -124,7 +124,10 @@
       const tall = across * (panel.y[1] - panel.y[0]) / (panel.x[1] - panel.x[0]);
       options.height = tall + options.marginTop + options.marginBottom;
     }
-    return P.plot(options);
+    const plot = P.plot(options);
+    // The figure says in words what it shows; a name that Plot gives to a group without a role is none.
+    plot.querySelectorAll("g[aria-label]").forEach((group) => group.removeAttribute("aria-label"));
+    return plot;
   }
 
   // A table of all curves: a column for each array that a mark takes.
