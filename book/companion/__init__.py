@@ -6,6 +6,7 @@ from book.companion.chips import (
     show_bases,
     show_counts,
     show_errata,
+    show_filter,
     show_verdicts,
 )
 from book.companion.show import show
@@ -18,6 +19,7 @@ __all__ = [
     "show_bases",
     "show_counts",
     "show_errata",
+    "show_filter",
     "show_verdicts",
     "what_if",
 ]

@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 from typing import Any
 
-from book.companion.show import ROLE, in_static_book
+from book.companion.markdown import in_static_book
+from book.companion.show import ROLE
 from softgrip.errors import UnknownNameError
 
 COUNT = {1: 1, 2: 14, 3: 12, 4: 7, 5: 7, 6: 8}

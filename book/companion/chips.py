@@ -9,7 +9,9 @@ import pandas as pd
 
 from book.companion.claims import Basis, Claim, read_claims, references
 from book.companion.errata import Erratum, errata
-from book.companion.markdown import Markdown, markdown_table
+from book.companion.ledger_address import NONE, address, row_address
+from book.companion.ledger_form import filter_form
+from book.companion.markdown import Markdown, in_static_book, markdown_table
 from book.companion.slips import ASSUMPTION, PRINT, RESULT, Change
 from book.companion.twin_reach import told
 from book.companion.verdict import Entry, Outcome, ledger, yields
@@ -24,9 +26,11 @@ MARKS = {
 """An outcome is told by mark and word, never by colour alone."""
 
 
-def chip(outcome: Outcome, text: str) -> str:
-    """Return an outcome as a small coloured label."""
-    return f'<span class="verdict {outcome}">{MARKS[outcome]} {html.escape(text)}</span>'
+def chip(outcome: Outcome, text: str, to: str = "") -> str:
+    """Return an outcome as a small coloured label; with an address, as a link to it."""
+    tag, link = ("a", f' href="{html.escape(to)}"') if to else ("span", "")
+    words = f"{MARKS[outcome]} {html.escape(text)}"
+    return f'<{tag} class="verdict {outcome}"{link}>{words}</{tag}>'
 
 
 def _number(value: float | None) -> str:
@@ -54,8 +58,6 @@ def _assumed(entry: Entry) -> str:
         words += ", this one among them." if claim.id in assumption.fitted_to else "."
     if assumption.tries > 1:
         words += f" {assumption.tries} readings were tried."
-    if entry.under_assumption is not None:
-        words += f" It gives {_number(entry.under_assumption)}."
     return words
 
 
@@ -74,7 +76,7 @@ def _banded(entry: Entry) -> str:
 def _remarks(entry: Entry) -> str:
     claim, author = entry.claim, entry.record()["author"]
     used = ", ".join(
-        f'<a href="ledger.html#claim-{name}">{name}</a>' for name in sorted(claim.stands_on)
+        f'<a href="{row_address(name)}">{name}</a>' for name in sorted(claim.stands_on)
     )
     parts = [
         claim.regardless,
@@ -101,15 +103,38 @@ def range_cell(entry: Entry) -> str:
     return _range(entry.spread.low, entry.spread.high) if entry.spread else ""
 
 
+def _permalink(claim: Claim) -> str:
+    words = f'title="Link to this row" aria-label="Link to this row: {html.escape(claim.what)}"'
+    return f'<a class="permalink" href="{row_address(claim.id)}" {words}>#</a>'
+
+
+def _computed_by(entry: Entry) -> str:
+    """Return the function that recomputes a number, linked to its place in the reference."""
+    if not entry.function:
+        return ""
+    package, _, name = entry.function.rsplit(".", 2)
+    return f'<a class="by" href="api/{package}.html#{entry.function}"><code>{name}</code></a> '
+
+
+def _valued(value: float | None) -> str:
+    """Return what a cell of a number is sorted by."""
+    return "" if value is None or value != value else f' data-value="{value:.9g}"'
+
+
 def _row(entry: Entry) -> str:
-    claim = entry.claim
+    claim, value = entry.claim, entry.spread.value if entry.spread else None
+    assumed = entry.under_assumption
+    beside = "" if assumed is None else f" <small>if assumed: {_number(assumed)}</small>"
     basis = entry.basis or (claim.nature if claim.nature != "result" else "")
+    data = f'data-outcome="{entry.outcome}" data-basis="{entry.basis or NONE}"'
     return (
-        f'<tr id="claim-{claim.id}"><td>{html.escape(claim.what)}{_remarks(entry)}</td>'
-        f"<td class='number'>{printed_cell(claim)}</td>"
-        f"<td class='number'>{range_cell(entry)}</td>"
-        f"<td>{chip(entry.outcome, entry.outcome)}</td><td>{basis}</td>"
-        f"<td>{told(claim.id)}</td></tr>"
+        f'<tr id="claim-{claim.id}" {data}>'
+        f"<td>{html.escape(claim.what)} {_permalink(claim)} "
+        f'<div class="more">{_computed_by(entry)}{_remarks(entry)}</div></td>'
+        f'<td class="number"{_valued(float(claim.printed))}>{printed_cell(claim)}</td>'
+        f'<td class="number"{_valued(value)}>{range_cell(entry)}{beside}</td>'
+        f"<td{_valued([*Outcome].index(entry.outcome))}>{chip(entry.outcome, entry.outcome)}</td>"
+        f"<td>{basis}</td><td>{told(claim.id)}</td></tr>"
     )
 
 
@@ -118,25 +143,33 @@ TWIN = '<a href="one-rig.html">within the twin\'s reach</a>'
 
 
 def verdict_table(entries: list[Entry]) -> str:
-    """Return entries as an HTML table, place by place: printed, recomputed, verdict."""
-    names = ("what", "printed", "recomputed", "outcome", "basis", TWIN)
-    head = "".join(f'<th scope="col">{name}</th>' for name in names)
-    wide = len(names)
+    """Return entries of a chapter as an HTML table, place by place: printed, recomputed, verdict.
+
+    Tables, bodies and rows bear as data what a reader may filter them by.
+    """
+    heads = {name: name for name in ("what", "printed", "recomputed", "outcome", "basis")}
+    heads["twin"] = TWIN
+    head = "".join(f'<th scope="col" data-sort="{n}">{words}</th>' for n, words in heads.items())
+    chapter = entries[0].claim.chapter
     places: dict[str, list[Entry]] = {}
     for entry in entries:
         places.setdefault(entry.claim.where, []).append(entry)
     bodies = "".join(
-        f'<tbody><tr><th colspan="{wide}" scope="rowgroup">{html.escape(where)}</th></tr>'
+        f'<tbody data-place="{html.escape(where)}"><tr>'
+        f'<th colspan="{len(heads)}" scope="rowgroup">{html.escape(where)}</th></tr>'
         f"{''.join(map(_row, found))}</tbody>"
         for where, found in places.items()
     )
-    return f'<table class="ledger"><thead><tr>{head}</tr></thead>{bodies}</table>'
+    return (
+        f'<table class="ledger numbers" data-chapter="{chapter}">'
+        f"<thead><tr>{head}</tr></thead>{bodies}</table>"
+    )
 
 
 def _linked(words: str, ids: set[str]) -> str:
     """Return words as HTML, those that are ids of claims as links to their rows in the ledger."""
     return " ".join(
-        f'<a href="ledger.html#claim-{word}">{word}</a>' if word in ids else html.escape(word)
+        f'<a href="{row_address(word)}">{word}</a>' if word in ids else html.escape(word)
         for word in words.split(" ")
     )
 
@@ -176,7 +209,7 @@ def _erratum(erratum: Erratum, ids: set[str]) -> str:
     )
     value = range_cell(erratum.entry)
     return (
-        f'<tr><td><a href="ledger.html#claim-{claim.id}">{html.escape(claim.what)}</a>'
+        f'<tr><td><a href="{row_address(claim.id)}">{html.escape(claim.what)}</a>'
         f" <small>{html.escape(claim.where)}</small></td>"
         f"<td class='number'>{printed_cell(claim)}</td>"
         f"<td>{value}{f' <small>from {used}</small>' if used else ''}</td>"
@@ -201,23 +234,55 @@ def errata_table(found: list[Erratum]) -> str:
 
 
 def _counted(entries: list[Entry], name: str, keys: list[tuple[object, str]]) -> pd.DataFrame:
-    """Count outcomes by a property of the claims, for the values of it that are named."""
+    """Count outcomes by a property of the claims, for the values of it that are named, and all."""
+    groups = {words: [e for e in entries if getattr(e.claim, name) == key] for key, words in keys}
     rows = []
-    for key, words in keys:
-        count = Counter(e.outcome for e in entries if getattr(e.claim, name) == key)
-        rows.append({name: words, **{str(o): count[o] for o in Outcome}, "claims": count.total()})
+    for words, own in {**groups, ALL: entries}.items():
+        count = Counter(entry.outcome for entry in own)
+        rows.append({name: words, **{str(o): count[o] for o in Outcome}, CLAIMS: count.total()})
     return pd.DataFrame(rows)
 
 
-def counts_table(entries: list[Entry]) -> str:
-    """Return the counts by chapter and outcome as a Markdown table."""
+ALL, CLAIMS = "all", "claims"
+"""Of a table of counts, the row and the column of sums."""
+
+
+def _with_links(counts: pd.DataFrame) -> pd.DataFrame:
+    """Link each count to the rows of the ledger that it counts."""
+    name = counts.columns[0]
+
+    def link(row: pd.Series, column: str) -> str:
+        asked = {name: row[name], "outcome": column}
+        fields = {field: value for field, value in asked.items() if value not in (ALL, CLAIMS)}
+        to = html.escape(address(**fields))
+        return f'<a href="{to}">{row[column]}</a>' if row[column] else "0"
+
+    linked = counts.astype(object)
+    for column in counts.columns[1:]:
+        linked[column] = [link(row, column) for _, row in counts.iterrows()]
+    return linked
+
+
+def chapter_counts(entries: list[Entry]) -> pd.DataFrame:
+    """Count outcomes by chapter."""
     chapters = sorted({entry.claim.chapter for entry in entries})
-    return markdown_table(_counted(entries, "chapter", [(n, str(n)) for n in chapters]))
+    return _counted(entries, "chapter", [(n, str(n)) for n in chapters])
 
 
-def basis_table(entries: list[Entry]) -> str:
-    """Return the counts by basis and outcome as a Markdown table."""
-    return markdown_table(_counted(entries, "basis", [(basis, basis or "none") for basis in Basis]))
+def basis_counts(entries: list[Entry]) -> pd.DataFrame:
+    """Count outcomes by basis."""
+    return _counted(entries, "basis", [(basis, basis or NONE) for basis in Basis])
+
+
+def counts_chips(entries: list[Entry], **fields: object) -> str:
+    """Return the counts of outcomes as labels, each a link to its rows: those of some fields."""
+    count = Counter(entry.outcome for entry in entries)
+    chips = (
+        chip(found, f"{count[found]} {found}", address(**fields, outcome=found))
+        for found in Outcome
+        if count[found]
+    )
+    return f'<p class="counts">{" ".join(chips)}</p>'
 
 
 def assumptions_table(entries: list[Entry]) -> str:
@@ -248,20 +313,33 @@ class Html:
 
 def show_verdicts(chapter: int | None = None, *, where: tuple[str, ...] = ()) -> Html:
     """Show the ledger of a chapter (or all), or of the places that are named."""
-    entries = ledger(chapter, where)
-    count = Counter(entry.outcome for entry in entries)
-    chips = " ".join(chip(found, f"{count[found]} {found}") for found in Outcome if count[found])
-    return Html(f'<p class="counts">{chips}</p>{verdict_table(entries)}')
+    chapters: dict[int, list[Entry]] = {}
+    for entry in ledger(chapter, where):
+        chapters.setdefault(entry.claim.chapter, []).append(entry)
+    return Html(
+        "".join(
+            f"{counts_chips(own, chapter=number)}{verdict_table(own)}"
+            for number, own in chapters.items()
+        )
+    )
+
+
+def show_filter() -> Html:
+    """Show how all verdicts stand; in a page, with the form that filters them."""
+    form = filter_form(read_claims()) if in_static_book() else ""
+    return Html(f"{counts_chips(ledger())}{form}")
 
 
 def show_counts() -> Markdown:
     """Show how the verdicts stand, by chapter."""
-    return Markdown(counts_table(ledger()))
+    counts = chapter_counts(ledger())
+    return Markdown(markdown_table(_with_links(counts), numbers=counts))
 
 
 def show_bases() -> Markdown:
     """Show on what the outcomes stand."""
-    return Markdown(basis_table(ledger()))
+    counts = basis_counts(ledger())
+    return Markdown(markdown_table(_with_links(counts), numbers=counts))
 
 
 def show_assumptions() -> Markdown:

@@ -13,8 +13,9 @@ from collections.abc import Mapping
 from math import isclose
 from pathlib import Path
 
-from book.companion.chips import counts_table
+from book.companion.chips import chapter_counts
 from book.companion.errata import KEPT
+from book.companion.markdown import markdown_table
 from book.companion.verdict import Entry, ledger
 from softgrip.kept import write_data
 from softgrip.provenance import Provenance, data_folder, data_rows
@@ -74,6 +75,19 @@ def write_csv(path: Path, entries: list[Entry]) -> None:
             )
 
 
+def write_records(path: Path, entries: list[Entry]) -> None:
+    """Write the records as JSON, and beside it as a table."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    records = json.dumps([entry.record() for entry in entries], indent=1, allow_nan=False)
+    path.write_text(records + "\n", encoding="utf-8")
+    write_csv(path.with_suffix(".csv"), entries)
+
+
+def counts_table(entries: list[Entry]) -> str:
+    """Return the counts by chapter and outcome as a Markdown table."""
+    return markdown_table(chapter_counts(entries))
+
+
 def write_counts(readme: Path, table: str) -> None:
     """Put the counts between their marks in the README."""
     text = readme.read_text(encoding="utf-8")
@@ -88,10 +102,7 @@ def main() -> None:
     parser.add_argument("--accept", action="store_true")
     asked = parser.parse_args()
     entries = ledger()
-    asked.into.parent.mkdir(parents=True, exist_ok=True)
-    records = json.dumps([entry.record() for entry in entries], indent=1, allow_nan=False)
-    asked.into.write_text(records + "\n")
-    write_csv(asked.into.with_suffix(".csv"), entries)
+    write_records(asked.into, entries)
     for outcome, count in Counter(entry.outcome for entry in entries).most_common():
         print(f"{count:5} {outcome}")
     print(f"{len(entries):5} claims, written to {asked.into} and, as a table, .csv")

@@ -1,5 +1,6 @@
 """Markdown that a cell displays, in a page as in a notebook."""
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -16,9 +17,26 @@ class Markdown:
         return self.text
 
 
-def markdown_table(frame: pd.DataFrame, cell: Callable[[object], str] = str) -> str:
-    """Return a table in Markdown, its columns of numbers to the right; cells may hold Markdown."""
-    numeric = [pd.api.types.is_numeric_dtype(kind) for kind in frame.dtypes]
+def in_static_book() -> bool:
+    """Tell whether a page of the book is built, and not a notebook run."""
+    return os.environ.get("SOFTGRIP_BOOK") == "static"
+
+
+def markdown_table(
+    frame: pd.DataFrame,
+    cell: Callable[[object], str] = str,
+    *,
+    numbers: pd.DataFrame | None = None,
+) -> str:
+    """Return a table in Markdown, its columns of numbers to the right; cells may hold Markdown.
+
+    Args:
+        frame: The table.
+        cell: What writes a cell.
+        numbers: Where the cells of the table hold numbers as links or the like: the numbers.
+    """
+    kinds = (frame if numbers is None else numbers).dtypes
+    numeric = [pd.api.types.is_numeric_dtype(kind) for kind in kinds]
     lines = [
         "| " + " | ".join(map(str, frame.columns)) + " |",
         "|" + "|".join("---:" if right else ":---" for right in numeric) + "|",

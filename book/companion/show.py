@@ -5,7 +5,6 @@ referable figure or table; in a notebook it is HTML with the same content.
 """
 
 import html
-import os
 import re
 from base64 import b64encode
 from collections import Counter
@@ -19,7 +18,8 @@ import pandas as pd
 
 from book.companion.chips import chip
 from book.companion.exhibit import Exhibit, exhibit, with_logs
-from book.companion.markdown import markdown_table
+from book.companion.ledger_address import address
+from book.companion.markdown import in_static_book, markdown_table
 from book.companion.save import Made, make, save, svg
 from book.companion.verdict import Outcome, ledger
 
@@ -31,11 +31,6 @@ MOST_FILES = 4
 
 ROLE, EMPHASIS = re.compile(r"\{[a-z:]+\}`([^`]*)`"), re.compile(r"\*([^*]+)\*")
 """A MyST role, which is for the book only, and what stands out."""
-
-
-def in_static_book() -> bool:
-    """Tell whether a page of the book is built, and not a notebook run."""
-    return os.environ.get("SOFTGRIP_BOOK") == "static"
 
 
 def _html_table(frame: pd.DataFrame) -> str:
@@ -78,7 +73,10 @@ class Shown:
             return ""
         entries = ledger(int(item.number.split(".")[0]), [item.title])
         count = Counter(entry.outcome for entry in entries)
-        return " ".join(chip(outcome, f"{count[outcome]} {outcome}") for outcome in count)
+        return " ".join(
+            chip(found, f"{count[found]} {found}", address(place=item.title, outcome=found))
+            for found in count
+        )
 
     def _facts(self) -> list[str]:
         item, data = self.exhibit, self.made.data

@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from urllib.parse import unquote, urlsplit
+from urllib.parse import parse_qsl, unquote, urlsplit
 
 import jupytext
 import nbformat
@@ -128,6 +128,12 @@ def soups(html):
 
 def test_links_lead_somewhere(soups):
     ids = {file: {tag["id"] for tag in soup.find_all(id=True)} for file, soup in soups.items()}
+    choices = {
+        (file, f"{choice['name']}={option.text}")
+        for file, soup in soups.items()
+        for choice in soup.select("form.ledger-filter select")
+        for option in choice("option")
+    }
     for file, soup in soups.items():
         for link in soup.find_all("a", href=True):
             target = urlsplit(link["href"])
@@ -135,7 +141,10 @@ def test_links_lead_somewhere(soups):
                 continue
             path = (file.parent / unquote(target.path)).resolve() if target.path else file
             assert path.exists(), (file.name, link["href"])
-            if target.fragment and path in ids:
+            if "=" in target.fragment:  # of the ledger: the rows that a filter leaves
+                for name, value in parse_qsl(target.fragment):
+                    assert (path, f"{name}={value}") in choices, (file.name, link["href"])
+            elif target.fragment and path in ids:
                 assert unquote(target.fragment) in ids[path], (file.name, link["href"])
 
 

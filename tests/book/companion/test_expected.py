@@ -8,9 +8,8 @@ from types import CodeType, FunctionType
 
 import pytest
 
-from book.companion.chips import counts_table
 from book.companion.claims import approximate, claim_of, resolved
-from book.companion.ledger import BEGIN, END, changes, expected, frozen, write_csv
+from book.companion.ledger import BEGIN, END, changes, counts_table, expected, frozen, write_csv
 from book.companion.printed import Spread, _rounded
 from book.companion.verdict import Case, judge, ledger
 
