@@ -30,6 +30,8 @@ STATIC = [BOOK / "_static" / name for name in ("softgrip.css", "scrolling.js")]
 TEMPLATE = BOOK / "_templates" / "layout.html"
 """What its pages share with those of the book."""
 CODE = ("softgrip", "book", "tests")
+MADE = {"_build", "_vendor"}
+"""Folders among them that a build makes."""
 INHERITED = {"set_score_request"}
 """What scikit-learn adds to a regressor, without a docstring that Sphinx could read."""
 ELSEWHERE = ("sklearn.exceptions.NotFittedError", "csv.Error", "sphinx.errors.ExtensionError")
@@ -115,6 +117,7 @@ def write_pages(folder: Path) -> None:
 def sources() -> str:
     """Return a digest of what the reference is made of."""
     files = sorted(file for top in CODE for file in (ROOT / top).rglob("*.py"))
+    files = [file for file in files if not MADE & {*file.relative_to(ROOT).parts}]
     lines = [f"{file.relative_to(ROOT)} {digest(file)}" for file in [*files, *STATIC, TEMPLATE]]
     lines += [sys.version, digest(ROOT / "environment.lock")]
     return hashlib.sha256("\n".join(lines).encode()).hexdigest()
