@@ -16,7 +16,6 @@ import pandas as pd
 from book.companion.chips import chip, printed_cell, range_cell
 from book.companion.claims import Claim, claim_by_id
 from book.companion.inputs import input_of, reached, with_inputs
-from book.companion.ledger import expected
 from book.companion.markdown import markdown_table
 from book.companion.verdict import Entry, Outcome, rejudged
 from softgrip.reads import remembered
@@ -141,6 +140,9 @@ def what_if(**changed: Any) -> WhatIf:
     >>> [(str(c.before.outcome), str(c.after.outcome)) for c in found.moved]
     []
     """
+    # Not above: `python -m book.companion.ledger` would run what has been imported already.
+    from book.companion.ledger import expected
+
     given = {symbol: input_of(symbol).value(value) for symbol, value in changed.items()}
     values = {s: value for s, value in given.items() if value != input_of(s).stated}
     hanging = {claim.id: claim for symbol in values for claim in reached(symbol)}
