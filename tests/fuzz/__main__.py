@@ -171,7 +171,9 @@ def main() -> int:
         # What was found is to be mended and tried again: only what comes before it is done.
         if not seen:
             state[str(asked.seed)] = first + done
-            asked.state.write_text(json.dumps(state) + "\n")
+            aside = asked.state.with_suffix(".part")  # at once or not at all
+            aside.write_text(json.dumps(state) + "\n")
+            aside.replace(asked.state)
         if time.monotonic() - shown > SHOWN:
             shown = time.monotonic()
             rate = done / (shown - begun)
