@@ -71,7 +71,7 @@ def execute(
                 timeout=env.mystnb_config.execution_timeout,
                 record_timing=False,  # it would stand in the cells, by which outputs are found
                 resources={"metadata": {"path": str(path.parent)}},
-                kernel_manager_class=forked.kernel_manager(),
+                kernel_manager_class=forked.KERNELS,
             )
             try:
                 await client.async_execute(env=os.environ | variables(page))

@@ -88,6 +88,5 @@ class ForkedKernelManager(AsyncKernelManager):
         provisioner.process, provisioner.pid = _Popen(started), started.pid
 
 
-def kernel_manager() -> type[AsyncKernelManager]:
-    """Return what starts the kernels of pages."""
-    return ForkedKernelManager if SAFE else AsyncKernelManager
+KERNELS = ForkedKernelManager if SAFE else AsyncKernelManager
+"""What starts the kernels of pages."""

@@ -6,9 +6,6 @@
 from pathlib import Path
 from typing import Any
 
-from jupyter_server.services.contents.largefilemanager import LargeFileManager
-from jupytext.sync_contentsmanager import build_sync_jupytext_contents_manager_class
-
 from book.build.tracing import ROOT
 
 KERNEL = {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}
@@ -28,6 +25,10 @@ def pages() -> list[Path]:
 
 def saved(page: Path) -> None:
     """Open a page, run a kernel in it, and save it, as Lab does; its folder has the settings."""
+    # Not above: a build, which asks for `has_cells`, would load a server.
+    from jupyter_server.services.contents.largefilemanager import LargeFileManager
+    from jupytext.sync_contentsmanager import build_sync_jupytext_contents_manager_class
+
     manager: Any = build_sync_jupytext_contents_manager_class(LargeFileManager)()
     manager.root_dir = str(page.parent)
     notebook = manager.get(page.name, type="notebook", content=True)["content"]
