@@ -41,8 +41,8 @@ NO_PROSE = re.compile(
 """Front matter, fenced blocks such as cells, displayed equations, numbers of a list's points."""
 PAGES = {page.stem: page.read_text("utf-8") for page in sorted(BOOK.glob("*.md"))}
 ROOMS = {
-    **{chapter: [f"chapter-{chapter}"] for chapter in chapters()},
-    "1": [],  # its captions alone
+    # One page or several; of Chapter 1 its captions alone.
+    **{one: [page for page in PAGES if re.match(rf"chapter-{one}\b", page)] for one in chapters()},
     "author": ["author"],
     "live": ["commissioning", "protocol", "rig"],
     "companion": ["index", "ledger"],
