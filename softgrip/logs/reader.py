@@ -20,6 +20,8 @@ from softgrip.text_table import TextTable, read_table
 MOST_EMPTY = 0.2
 """Share of the rows that may lack a value of a column: they are left out, as gaps. Where more do,
 the column is."""
+MOST_MISSING = 1e7
+"""Rows that may be missing in one place: more is no pause, and an even clock has no room for it."""
 ELSEWHERE = "another program"
 """Back end of a log without our header."""
 
@@ -250,11 +252,18 @@ def _si_unit(table: TextTable, name: str, unit: str) -> str:
 
 
 def _check_time(table: TextTable, time: Floats, lines: Sequence[int]) -> None:
-    """Refuse times that stand, or run back: rows that were mixed, or a clock that began anew."""
+    """Refuse times that stand, run back, or jump: rows that were mixed, a clock that was set."""
     for k in np.flatnonzero(np.diff(time) <= 0).tolist():
         before, after = float(time[k]), float(time[k + 1])
         anew = " (a clock that begins anew is another log)" if after < before else ""
         raise table.refusal(f"a time above {before!r} s{anew}", repr(after), lines[k + 1])
+    steps = np.diff(time)
+    for k in np.flatnonzero(steps > MOST_MISSING * np.median(steps)).tolist() if steps.size else ():
+        before, most = float(time[k]), MOST_MISSING * float(np.median(steps))
+        raise table.refusal(
+            f"a time within {most:.3g} s of {before!r} s, {MOST_MISSING:.0e} rows on",
+            repr(float(time[k + 1])), lines[k + 1],
+        )  # fmt: skip
 
 
 def kept_log(name: str) -> Path:

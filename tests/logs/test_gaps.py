@@ -260,6 +260,13 @@ def test_times_that_stand_or_run_back_are_refused(path, time):
         read_log(path)
 
 
+@pytest.mark.parametrize("last", [1e9, 1.7e12, 1e19])
+def test_a_clock_that_was_set_within_a_log_is_refused(path, last):
+    late = retimed(path, STEP, lambda time: np.where(time == time[-1], last, time))
+    with pytest.raises(DataFileError, match=r"line \d+: expected a time within .* rows on"):
+        read_log(late)
+
+
 def test_a_push_whose_command_changes_in_a_gap_is_refused(path):
     without(path, PUSH, range(40, 45))
 
