@@ -9,7 +9,7 @@ READY := $(VENV)/ready
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help book book-version test lint lab figures ledger accept bench bench-book rig-test picture lock clean
+.PHONY: help book book-version test lint lab figures ledger accept bench bench-book sentences rig-test picture lock clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z][a-z%-]*:.*## ' $(MAKEFILE_LIST) | sort \
@@ -69,6 +69,9 @@ bench: $(READY)  ## measure the speed of simulation and control: book/_build/ben
 
 bench-book: $(READY)  ## measure the build of the book and its pages against a former commit: hours
 	@$(BIN)/python -m tests.bench.book
+
+sentences: $(READY)  ## list the sentences of the pages that are hardest to read
+	@$(BIN)/python -m book.build.sentences
 
 rig-test: $(READY)  ## run the rig's tests on a board: make rig-test PORT=/dev/ttyACM0 (the motor turns)
 	@test -n "$(PORT)" || { echo "make rig-test PORT=/dev/ttyACM0"; exit 2; }
