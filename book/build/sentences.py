@@ -70,8 +70,8 @@ def sentences(page: str, text: str) -> Iterator[Sentence]:
         page: Its name.
         text: Its source, MyST Markdown. Code, displayed equations and options are left out.
 
-    >>> [s.text for s in sentences("a", "One stands, by Eq. (2), here. *Two* `a. b`!\\n\\n```\\nx\\n```")]
-    ['One stands, by Eq. (2), here.', '*Two* `a. b`!']
+    >>> [one.text for one in sentences("page", "One, by Eq. (2). *Two* `a. b`!")]
+    ['One, by Eq. (2).', '*Two* `a. b`!']
     """
     body = re.sub(r"\A---\n.*?\n---\n", "", text, flags=re.DOTALL)
     body = DIRECTIVE.sub("\n", MATH_BLOCK.sub("\n", body))
