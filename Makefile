@@ -4,6 +4,7 @@ PYTHON ?=
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/ready
+TESTS := $(VENV)/ready-for-tests
 
 # Else each kernel of a page and each process of a test compiles all that it imports anew.
 unexport PYTHONDONTWRITEBYTECODE
@@ -20,7 +21,12 @@ $(READY): environment.lock pyproject.toml
 	set -- $$found; python=$$2; \
 	echo "Making $(VENV) from environment.lock with Python $$1, $$python:" \
 	     "a minute or two and 1.5 GB, once."; \
-	.ci/environment $(VENV) "$$python"
+	.ci/environment $(VENV) "$$python" book
+	@touch $@
+
+$(TESTS): $(READY)
+	@echo "Adding what only the tests need."
+	@.ci/environment $(VENV) $(BIN)/python tests
 	@touch $@
 
 book: book-version  ## build the book: book/_build/html/index.html
@@ -30,11 +36,11 @@ book-version: $(READY)
 	@$(BIN)/python -c 'from importlib.metadata import version; found = version("jupyter-book"); \
 	  found.startswith("1.") or exit(f"The book needs jupyter-book 1.x, $(VENV) has {found}: rm -r $(VENV), make book")'
 
-test: $(READY)  ## run the tests; those of the pages build the book and open it in Chromium
+test: $(TESTS)  ## run the tests; those of the pages build the book and open it in Chromium
 	@$(BIN)/python -m pytest -n auto --dist loadfile --no-loadscope-reorder \
 	  --durations=20 --durations-min=1
 
-lint: $(READY)  ## check style, types and the direction of imports
+lint: $(TESTS)  ## check style, types and the direction of imports
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
 	@$(BIN)/mypy
@@ -64,26 +70,25 @@ ledger: $(READY)  ## judge every printed number: book/_build/ledger.json
 accept: $(READY)  ## make today's verdicts the expected ones (look at the diff)
 	@$(BIN)/python -m book.companion.ledger --accept
 
-bench: $(READY)  ## measure the speed of simulation and control: book/_build/bench.json
+bench: $(TESTS)  ## measure the speed of simulation and control: book/_build/bench.json
 	@$(BIN)/python -m tests.bench
 
-bench-book: $(READY)  ## measure the build of the book and its pages against a former commit: hours
+bench-book: $(TESTS)  ## measure the build of the book and its pages against a former commit: hours
 	@$(BIN)/python -m tests.bench.book
 
 sentences: $(READY)  ## list the sentences of the pages that are hardest to read
 	@$(BIN)/python -m book.build.sentences
 
-rig-test: $(READY)  ## run the rig's tests on a board: make rig-test PORT=/dev/ttyACM0 (the motor turns)
+rig-test: $(TESTS)  ## run the rig's tests on a board: make rig-test PORT=/dev/ttyACM0 (the motor turns)
 	@test -n "$(PORT)" || { echo "make rig-test PORT=/dev/ttyACM0"; exit 2; }
 	@SOFTGRIP_RIG_PORT=$(PORT) $(BIN)/python -m pytest tests/rig/test_conformance.py \
 	  -k "not simulated and not replay and not stub and not emulated"
 
-picture: book  ## take the picture of the README from the built book (needs Chromium)
+picture: book $(TESTS)  ## take the picture of the README from the built book (needs Chromium)
 	@$(BIN)/python -m book.build.picture
 
-lock: $(READY)  ## resolve the dependencies of pyproject.toml anew
-	@$(BIN)/uv pip compile pyproject.toml --all-extras --universal --generate-hashes \
-	  --python-version 3.11 --no-header --no-annotate --upgrade --quiet -o environment.lock
+lock: $(TESTS)  ## resolve the dependencies of pyproject.toml anew
+	@.ci/lock $(BIN)/uv --upgrade
 
 clean:  ## remove what was built; the environment stays
 	@rm -rf book/_build book/_vendor .pytest_cache .mypy_cache .ruff_cache .hypothesis
