@@ -21,8 +21,8 @@ def read_alike(paths: Sequence[Path | str] | Path | str) -> list[Log]:
     known.
 
     Raises:
-        DataFileError: If a log cannot be read, has a gap, lacks its start, or has other times than
-            the first.
+        DataFileError: If a log cannot be read, has a gap or a single row, lacks its start, or has
+            other times than the first.
     """
     if isinstance(paths, str | Path):
         paths = [paths]
@@ -33,6 +33,8 @@ def read_alike(paths: Sequence[Path | str] | Path | str) -> list[Log]:
     for path, log in zip(paths, logs, strict=True):
         refuse_late_start(path, log, "a mean of runs")
         refuse_gaps(path, log, "a mean of runs")
+        if log["time"].size < 2:
+            raise DataFileError(path, expected="two rows or more", got=f"{log['time'].size}")
         if log["time"].shape != time.shape or not np.allclose(log["time"], time):
             raise DataFileError(path, expected=f"the times of {paths[0]}", got="other times")
     return [evened(log) for log in logs]

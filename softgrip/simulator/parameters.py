@@ -3,11 +3,11 @@
 A parameter is a number; where each run has a rig of its own, an array of shape (runs,).
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 
-from softgrip.arrays import Number, check_positive
+from softgrip.arrays import Number, check_positive, is_symbol
 from softgrip.checks import check_fields, check_not_negative
 from softgrip.errors import InvalidInputError
 from softgrip.pump.gas import ATMOSPHERE
@@ -166,6 +166,10 @@ class SensorParameters:
         return 2**self.bits - 1
 
 
+MOST_SPREAD = 3.0
+"""Of a logarithm: one run in three is then twenty times off, and none is a repeat of another."""
+
+
 @dataclass(frozen=True)
 class Spread:
     """Standard deviation of the logarithm of what differs from run to run, dimensionless.
@@ -181,6 +185,11 @@ class Spread:
 
     def __post_init__(self) -> None:
         check_fields(self, zero=("stiffness", "damping", "leakage"))
+        for entry in fields(self):
+            if not is_symbol(found := getattr(self, entry.name)) and np.any(found > MOST_SPREAD):
+                raise InvalidInputError(
+                    entry.name, expected=f"a spread of at most {MOST_SPREAD:g}", got=found
+                )
 
 
 @dataclass(frozen=True)

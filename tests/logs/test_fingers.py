@@ -60,6 +60,14 @@ def test_logs_of_one_finger_or_other_times_are_refused():
         read_runs([data_folder() / names_of(kind)[0] for kind in ("open", "push")])
 
 
+def test_logs_of_a_single_row_are_refused(tmp_path):
+    lines = data_file("simulated/gripper-open-1.csv").path.read_text().splitlines(keepends=True)
+    first = next(k for k, line in enumerate(lines) if line.startswith("time"))
+    (short := tmp_path / "short.csv").write_text("".join(lines[: first + 2]))
+    with pytest.raises(DataFileError, match="expected two rows or more, got 1"):
+        read_runs([short])
+
+
 def test_linear_fingers_are_identified_exactly():
     time = 0.1 * np.arange(61)
     command = np.where(np.arange(61) == 1, 20.0, 0.0)[None]

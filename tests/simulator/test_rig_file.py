@@ -33,6 +33,7 @@ DAMAGES = {
     "no number": (",2.5,", ",two,", "line 8: .*a finite number in column 'value', got 'two'"),
     "infinite": (",2.5,", ",inf,", "line 8: .*column 'value', got 'inf'"),
     "out of range": (",2.5,", ",0.5,", "fractional_power: expected >= 1, got 0.5"),
+    "runs alike in nothing": ("spread.leakage [1],", "spread.leakage [1],9", "a spread of at most"),
     "no status": (",told", ",said", "line 7: expected a status of .*got 'said'"),
     "short": ("pump.area [m^2],0.000661,,,given", "pump.area [m^2],0.000661", "expected 5 cells"),
     "missing": ("pump.area [m^2],0.000661,,,given\n", "", "a row for pump.area, got none"),
