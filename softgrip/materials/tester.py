@@ -80,16 +80,21 @@ def read_export(
     table = read_table(path)
     notes = list(table.notes)
     strain = _strain(table, columns, gauge_length, notes)
-    stress = _stress(table, columns, area, strain, notes)
+    # Some turn the force only.
+    if compression_positive and strain.max() - strain[0] <= strain[0] - strain.min():
+        strain = -strain
+    if np.any(strain <= -1):
+        raise table.refusal(
+            "strains above -1, where nothing would be left of the sample: does the tester count "
+            "compression above zero (compression_positive)?",
+            f"{float(strain.min()):.4g}",
+        )
+    stress = _stress(table, columns, area, strain, notes) * (-1 if compression_positive else 1)
     if np.ptp(strain) > LARGEST_STRAIN:
         raise table.refusal(
             f"strains of up to {LARGEST_STRAIN:g}: is the gauge length right, and the unit?",
             f"a range of {np.ptp(strain):.4g}",
         )
-    if compression_positive:
-        # Some turn the force only.
-        strain = strain if strain.max() - strain[0] > strain[0] - strain.min() else -strain
-        stress = -stress
     stiffness = float(np.ptp(stress) / np.ptp(strain)) if np.ptp(strain) else SOFTEST
     if stiffness < SOFTEST:
         raise table.refusal(

@@ -161,6 +161,14 @@ def test_compression_above_zero_is_asked_and_turned(export):
     check(export(text, compression_positive=True, **SIZES))
     force_only = "Load (N),Displacement (mm)\n" + rows(-NEWTON, MM)
     check(export(force_only, compression_positive=True, **SIZES))
+    true = "Strain [-],True stress [MPa]\n" + rows(-STRAIN, -STRESS * (1 + STRAIN) / 1e6)
+    check(export(true, compression_positive=True))
+
+
+def test_a_sample_that_is_pressed_to_nothing_is_refused(export):
+    crushed = "Strain [-],True stress [MPa]\n" + rows(STRAIN - 1, STRESS / 1e6)
+    with pytest.raises(DataFileError, match="strains above -1, .*got -1"):
+        export(crushed)
 
 
 def test_true_stress_is_never_taken_for_engineering(export):
