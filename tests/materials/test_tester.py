@@ -167,7 +167,7 @@ def test_compression_above_zero_is_asked_and_turned(export):
 
 def test_a_sample_that_is_pressed_to_nothing_is_refused(export):
     crushed = "Strain [-],True stress [MPa]\n" + rows(STRAIN - 1, STRESS / 1e6)
-    with pytest.raises(DataFileError, match="strains above -1, .*got -1"):
+    with pytest.raises(DataFileError, match=r"strains above -1, .*got -1"):
         export(crushed)
 
 
