@@ -82,7 +82,8 @@ def figure_2_3() -> Figure:
     lower.axhline(threshold / 1e3, color=GREY, ls=":")
     upper.set(xlabel="load (N)", ylabel="resistance (MOhm)", title="(b) simulated")
     upper.legend(loc="lower right", bbox_to_anchor=(1.0, 0.12))
-    lower.set(xlabel="load (N)", ylabel="change (kOhm)", xscale="log", yscale="log")
+    lower.set(xlabel="load (N)", ylabel="change (kOhm)", xscale="log", yscale="log",
+              title="the change alone, both axes logarithmic")  # fmt: skip
     return drawn
 
 

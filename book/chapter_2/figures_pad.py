@@ -250,12 +250,34 @@ def table_2_c() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+PARAMETERS = {
+    "pad.young_modulus [Pa]": "Young's modulus of elements and cover (Pa)",
+    "pad.cut [1]": "width of an element's flat top, of its base",
+    "pad.cover [m]": "thickness of the cover (m)",
+    "pad.spread [m]": "half the side of the square that presses an element (m)",
+    "pad.rest_spread [1]": "deviation between elements: resistance at rest",
+    "pad.gain_spread [1]": "the same: change of resistance",
+    "pad.stiffness_spread [1]": "the same: stiffness",
+    "pad.height_spread [m]": "the same: height (m)",
+    "pad.repeatability [1]": "deviation from contact to contact: change of resistance",
+    "pad.noise [V]": "noise of an element's voltage (V)",
+    "pad.tilt [rad]": "deviation of how level an object is held (rad)",
+    "layer.soft_force [N]": "force over which the layer becomes conductive (N)",
+    "layer.memory_fast [1]": "part of a force that the layer feels late, fast",
+    "layer.memory_slow [1]": "the same, slow",
+    "layer.voltage_noise [V]": "noise of the layer's voltage (V)",
+    "layer.seating [1]": "deviation from weight to weight: part that is felt",
+    "layer.object_seating [1]": "the same, from object to object",
+}
+"""Words for the fitted parameters of pad and layer."""
+
+
 @table("2.D", Provenance.SIMULATED)
 def table_2_d() -> pd.DataFrame:
     """Tabulate the fitted parameters of the simulated pad, with what the prints leave to them."""
     return pd.DataFrame(
         {
-            "parameter [unit]": row["parameter [unit]"],
+            "parameter": PARAMETERS[row["parameter [unit]"]],
             "value": f"{float(row['value']):.3g}",
             "90 % interval": f"{float(row['low']):.3g} to {float(row['high']):.3g}"
             if row["low"]

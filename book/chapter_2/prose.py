@@ -11,10 +11,17 @@ from book.chapter_2 import figures_element as elements
 from book.chapter_2 import figures_pad as pad
 from book.chapter_2.figures_force import CORRECTIONS, LINEAR_BELOW, SHOWN_START
 from book.chapter_2.figures_grasp import ENDS, FRICTION
-from book.chapter_2.figures_kind import printed_gain, printed_right
+from book.chapter_2.figures_kind import printed_accuracies, printed_gain, printed_right
 from book.chapter_2.force_logs import CYCLE_FORCES, HOLD, LONG_WEIGHTS, RAMP
-from book.chapter_2.forces import HOURS, SEEDS, weight_points
-from book.chapter_2.grasps import RUNS, friction, study, summary
+from book.chapter_2.forces import (
+    HOURS,
+    SEEDS,
+    WHOLE,
+    kept_comparison,
+    weight_bandwidth,
+    weight_points,
+)
+from book.chapter_2.grasps import RUNS, friction, held_share, study, summary
 from book.chapter_2.kinds import (
     DRAWS,
     NEIGHBOURS,
@@ -27,6 +34,7 @@ from book.chapter_2.kinds import (
 )
 from book.chapter_2.logs import OBJECTS, TRAINING, contacts, errors
 from book.chapter_2.numbers import BAGGED, SINGLE
+from book.chapter_2.tasks import WIDER_TOP, by_halving, poses, sure_lift, top_for
 from book.companion.claims import printed
 from book.companion.drawn import drawn
 from softgrip.arrays import Floats
@@ -35,21 +43,25 @@ from softgrip.simulator.force_layer import layer_voltage
 from softgrip.simulator.force_tests import PERIOD
 from softgrip.simulator.pad_gripper import GraspGripper
 from softgrip.simulator.pad_objects import pad_object
-from softgrip.tactile.accuracy import CONFIDENCE
+from softgrip.tactile.accuracy import CONFIDENCE, overlaps
 from softgrip.tactile.contact_kind import NEIGHBOURS as CHOSEN
 from softgrip.tactile.contact_kind import bagged_neighbours, nearest_neighbours
 from softgrip.tactile.contact_pose import FELT, angle_between, line_angle
-from softgrip.tactile.element import STATED_MODULUS, TABLE_MODULUS, Shape
+from softgrip.tactile.element import STATED_MODULUS, TABLE_MODULUS, Shape, shortening
 from softgrip.tactile.element_results import STATED_CYLINDER, fem_deformation
 from softgrip.tactile.element_sensitivity import equal_cut
 from softgrip.tactile.element_table import ASSUMED
+from softgrip.tactile.force import Weighing, table_2_2
 from softgrip.tactile.friction import (
     Interval,
     common_friction,
     contact_force,
+    holding_probability,
     printed_grasps,
 )
+from softgrip.tactile.hertz import hertz_approach
 from softgrip.tactile.kind_evaluation import FOLDS
+from softgrip.tactile.nadaraya_watson import left_out_error
 from softgrip.tactile.pad_layout import THREE_TWO_THREE
 from softgrip.units import DEG, GRAM_FORCE, MM, MPa
 
@@ -110,6 +122,12 @@ def _fewer(model: Any) -> int:
     """Return how many contacts of the foods are told less if no food was felt before."""
     known, new = (right_on_objects(model, felt) for felt in (None, without_tested_objects()))
     return int(known.sum() - new.sum())
+
+
+def _p_of_objects() -> float:
+    """Return the least p of the two classifiers on the objects that the printed counts leave."""
+    single, bagged = printed_right(-1)
+    return min(test.p_value for test in overlaps(single, bagged, printed_accuracies()[-1][1]))
 
 
 def _tested(classifier: str) -> float:
@@ -182,6 +200,78 @@ def _beside(panel: str) -> float:
     return float(100 * abs(true[-1] / measured[-1] - 1))
 
 
+def _times_stated(row: str, found: float) -> str:
+    """Return how many times as far as its row prints an element of the stated inputs gives way."""
+    return f"{found / MM / printed(f'table-2.1-{row}-0-1-n'):.2f}"
+
+
+def _apart() -> float:
+    """Return the most by which the drawn finite elements of both shapes with a cut differ."""
+    one, other = (drawn("Figure 2.B", f"{shape}, FEM")[1] for shape in CUT)
+    return float((one / other).max())
+
+
+def _by_the_prints(*status: str) -> int:
+    """Return how many parameters of the simulated pad have a status."""
+    return int(pad.table_2_d()["by the prints"].isin(status).sum())
+
+
+def _regressor(name: str, left_out: str) -> str:
+    return f"{kept_comparison().loc[name, left_out] / GRAM_FORCE:.1f}"
+
+
+def _point_error_there() -> float:
+    """Return the error on points, gf, at the bandwidth that is best for whole weights."""
+    voltage, force = weight_points()
+    return left_out_error(voltage[:, None], force, weight_bandwidth()) / GRAM_FORCE
+
+
+def _slips(name: str) -> str:
+    """Return the probability, %, that a printed grasp slips, as in Table 2.J."""
+    grasp = printed_grasps()[name]
+    holds = holding_probability(
+        float(grasp.lift), float(grasp.weight), FRICTION, printed("2.2-deviation")
+    )
+    return f"{100 * (1 - holds):.2g}"
+
+
+def _weighed() -> Iterable[Weighing]:
+    return table_2_2().values()
+
+
+def _common() -> Interval:
+    common = common_friction()
+    assert common, "printed forces that no coefficient joins"
+    return common
+
+
+def _top() -> float:
+    """Return the top of the pyramid of Table 2.1 with the stated modulus, a part of its base."""
+    return top_for(printed("table-2.1-pyramid-analytics-0-1-n") * MM, printed("2.2-load-0-1-n"))
+
+
+def _step_share() -> float:
+    """Return by how much the slider's positions beside `_top` differ, % of the printed row."""
+    step = 0.01
+    below = floor(_top() / step) * step
+    return float(100 * (_top() / below - _top() / (below + step)))
+
+
+def _sure(name: str) -> str:
+    weight = float(printed_grasps()[name].weight)
+    return f"{sure_lift(weight, SURE, FRICTION, printed('2.2-deviation')):.3f}"
+
+
+def _each(values: Iterable[float]) -> str:
+    """Return values, each once and in order, in words."""
+    every = [_signed(f"{value:g}") for value in sorted(set(values))]
+    return " and ".join(every)
+
+
+CARROT = "small carrot"
+SURE = 0.99
+"""Probability of a firm grip."""
+
 WITH, WITHOUT = "bagged", "bagged_without_replacement"
 
 WORDS = {
@@ -193,6 +283,10 @@ WORDS = {
     "tops": lambda: _listed((ASSUMED[x].width * ASSUMED[x].cut / MM for x in CUT), ".2f"),
     "cuts": lambda: _listed((ASSUMED[x].cut for x in CUT), ".2g"),
     "pyramid_cut": lambda: f"{ASSUMED['pyramid'].cut:g}",
+    "stated_cylinder": lambda: _times_stated(
+        "cylinder-analytics", shortening(STATED_CYLINDER, elements.LOAD)
+    ),
+    "stated_hertz": lambda: _times_stated("hemisphere-hertzian", hertz_approach(elements.LOAD)),
     # Figure 2.3, N
     "most_load": lambda: f"{elements.MOST_LOAD:g}",
     "ceiling_pyramid": lambda: f"{_reached('pyramid'):.2f}",
@@ -218,6 +312,10 @@ WORDS = {
     "flattest": lambda: _listed((drawn("Figure 2.B", f"{x}, (2.1)")[1][-1] for x in CUT), ".1f"),
     "sharpest_solved": lambda: f"{drawn('Figure 2.B', 'hemisphere, FEM')[1][0]:.0f}",
     "cut": lambda: f"{equal_cut():.2f}",
+    "apart": lambda: f"{_apart():.1f}",
+    # Table 2.D
+    "told": lambda: f"{_by_the_prints('told')}",
+    "fitted": lambda: f"{_by_the_prints('told', 'not told')}",
     # Figures 2.7 and 2.11, Table 2.E
     "folds": lambda: f"{FOLDS}",
     "trained": lambda: f"{kept_neighbours()[CHOSEN][0].cross_validated.total}",
@@ -236,6 +334,9 @@ WORDS = {
     "right_bagged": lambda: f"{kept('draws')[WITH][0]}",
     "simulated": lambda: f"{_tested(SINGLE):.1f}",
     "bagged": lambda: f"{_tested(BAGGED):.1f}",
+    # Table 2.F
+    "usual_p": lambda: f"{1 - CONFIDENCE:.2f}",
+    "objects_p": lambda: f"{_p_of_objects():.2f}",
     # Figure 2.E
     "draws": lambda: f"{DRAWS}",
     "gain": lambda: f"{printed_gain()}",
@@ -301,6 +402,13 @@ WORDS = {
     "point_width": lambda: f"{drawn('Figure 2.H', 'best, a point at a time')[0][0]:.3f}",
     "weight_error": lambda: f"{drawn('Figure 2.H', 'best, a weight at a time')[1][0]:.1f}",
     "weight_width": lambda: f"{drawn('Figure 2.H', 'best, a weight at a time')[0][0]:.2f}",
+    "point_error_there": lambda: f"{_point_error_there():.1f}",
+    # Tables 2.H and 2.I: gf, %, N
+    "kernel_whole": lambda: _regressor("Nadaraya-Watson", WHOLE),
+    "network_whole": lambda: _regressor("neural network", WHOLE),
+    "isotonic_whole": lambda: _regressor("isotonic regression", WHOLE),
+    "accuracy_of_one": lambda: f"{100 * np.mean([r.accuracy_of_one for r in _weighed()]):.1f}",
+    "mean_deviation": lambda: f"{np.mean([r.deviation for r in _weighed()]):.4f}",
     # Figures 2.14, 2.I and 2.J, Table 2.K
     "opening": lambda: f"{GraspGripper().opening / MM:g}",
     "ends": lambda: _span(ENDS),
@@ -313,6 +421,11 @@ WORDS = {
     "settled_tofu": lambda: f"{summary(study('tofu')).settling_time:.1f}",
     "settled_carrot": lambda: f"{summary(study('carrot')).settling_time:.1f}",
     "true_beside": lambda: f"{max(_beside(panel) for panel in ('(a)', '(b)', '(c)')):.0f}",
+    "slip_egg": lambda: _slips("egg"),
+    "slip_tofu": lambda: _slips("tofu"),
+    "slip_carrot": lambda: _slips("carrot"),
+    "held_egg": lambda: f"{100 * held_share('egg', friction()):.0f}",
+    "held_egg_least": lambda: f"{100 * held_share('egg', _common().low):.0f}",
     "friction_egg": lambda: _bounds(printed_grasps()["egg"].friction),
     "friction_tofu": lambda: _bounds(printed_grasps()["tofu"].friction),
     "friction_carrot": lambda: _bounds(printed_grasps()["carrot"].friction),
@@ -323,4 +436,18 @@ WORDS = {
     "missing_egg": lambda: f"{drawn('Figure 2.J', 'egg', '(b)')[1][0]:.2f}",
     "missing_tofu": lambda: f"{drawn('Figure 2.J', 'tofu', '(b)')[1][0]:.2f}",
     "missing_carrot": lambda: f"{drawn('Figure 2.J', 'carrot', '(b)')[1][0]:.2f}",
+    # The tasks: parts of the base, mm, times, %; mm, deg; N
+    "top": lambda: f"{_top():.3f}",
+    "top_width": lambda: f"{_top() * STATED_CYLINDER.width / MM:.2f}",
+    "step_share": lambda: f"{_step_share():.0f}",
+    "wider_top": lambda: f"{WIDER_TOP:g}",
+    "halved_pyramid": lambda: f"{by_halving('pyramid'):.2g}",
+    "halved_hemisphere": lambda: f"{by_halving('hemisphere'):.2g}",
+    "egg_places": lambda: _each(pose.place for pose in poses("egg", "line")),
+    "egg_elements": lambda: _each(pose.elements for pose in poses("egg", "line")),
+    "carrot_angles": lambda: _each(pose.angle for pose in poses(CARROT, "surface")),
+    "carrot_elements": lambda: _each(pose.elements for pose in poses(CARROT, "surface")),
+    "sure": lambda: f"{100 * SURE:.0f}",
+    "sure_egg": lambda: _sure("egg"),
+    "sure_tofu": lambda: _sure("tofu"),
 }

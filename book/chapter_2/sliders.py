@@ -14,7 +14,7 @@ from book.chapter_2.logs import TRAINING, contacts
 from book.companion.style import GREY, still, style
 from book.explore.plot import Dots, Line, Outline, Panel, Plot
 from book.explore.scan import Numbers, scan, total
-from softgrip.arrays import Number
+from softgrip.arrays import Floats, Number
 from softgrip.errors import InvalidInputError
 from softgrip.reads import remembered
 from softgrip.simulator.pad import ideal_responses
@@ -172,6 +172,11 @@ def _classifier() -> FastKind:
     return FastKind.from_fitted(bagged_neighbours().fit(training.responses, training.kinds))
 
 
+def kind_of(responses: Floats) -> str:
+    """Return the kind that the bagging classifier tells; "nothing" where no element responds."""
+    return _classifier().predict(responses) if responses.max() > 0 else "nothing"
+
+
 def draw_touch(item: str, x: float, angle: float) -> Figure:
     """Draw a smooth object on an ideal simulated pad, 0.15 N, and what the classifier says.
 
@@ -185,7 +190,7 @@ def draw_touch(item: str, x: float, angle: float) -> Figure:
         responses = ideal_responses(item, pose, FORCE)
     except InvalidInputError:
         responses = np.zeros(THREE_TWO_THREE.elements)  # it lies beside all elements
-    kind = _classifier().predict(responses) if responses.max() > 0 else "nothing"
+    kind = kind_of(responses)
     with style():
         drawn, axes = still(3.9, left=0.12)
         draw_elements(axes, responses, outline(found, pose))

@@ -89,9 +89,11 @@ class Exhibit:
 
     @property
     def page(self) -> str:
-        """The page that it stands on; Chapter 1 is the front page."""
-        chapter = self.number.split(".")[0]
-        return "index" if chapter == "1" else f"chapter-{chapter}"
+        """The page that shows it, by the name of its file; a chapter may have several."""
+        cell = f'\nshow("{self.title}"'
+        return next(
+            page.stem for page in sorted(BOOK.glob("*.md")) if cell in page.read_text("utf-8")
+        )
 
     @property
     def command(self) -> str:

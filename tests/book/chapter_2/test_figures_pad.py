@@ -62,14 +62,14 @@ def test_tables_count_all_contacts():
 
 
 def test_table_2_d_has_the_pad_and_the_layer_that_are_simulated():
-    rows = shown.table_2_d().set_index("parameter [unit]")
+    rows = shown.table_2_d().set_index("parameter")
     pad, layer = fitted_pad(), fitted_layer()
     for name, value in (
         ("pad.cut [1]", pad.element.cut),
         ("pad.repeatability [1]", pad.repeatability),
         ("layer.memory_slow [1]", layer.memory[1]),
     ):
-        assert float(rows.loc[name, "value"]) == pytest.approx(value, rel=5e-3)
+        assert float(rows.loc[shown.PARAMETERS[name], "value"]) == pytest.approx(value, rel=5e-3)
     assert set(rows["by the prints"]) == {"told", "not told", "given"}
     # What is given has no interval.
     assert ((rows["by the prints"] == "given") == (rows["90 % interval"] == "")).all()

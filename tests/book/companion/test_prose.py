@@ -14,7 +14,7 @@ NOT_NUMBERS = re.compile(
     # Computed, code, symbols, links, HTML; then what has a number for a name: places of the
     # dissertation, materials, parts, versions, dates, preprints.
     r"\{\{ \S+ \}\}|\{[\w:]+\}`[^`]*`|`[^`]*`|\$[^$]*\$|\]\([^)]*\)|<[^>]*>"
-    r"|(?:Sections?|Chapters?|Figures?|Tables?|Eqs?\.|Theorem|Assumption|Remark)"
+    r"|(?:Sections?|Chapters?|Figures?|Tables?|Eqs?\.|Theorem|Assumption|Remark|Task)"
     rf" \(?[\d.]+\w?\)?{LIST}"
     rf"|(?:Designs?|SPA|Variances?|[Rr]ows?|[Pp]arts?) \d{LIST}"
     r"|Ecoflex™? \d\d-\d\d|Dragon Skin \d\d|Mold Star \d\d\w*|SORTA-Clear \d\d"

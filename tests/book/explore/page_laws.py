@@ -65,7 +65,8 @@ def page_laws() -> dict[str, PageLaw]:
             found[function.__name__] = PageLaw(function, plot, sliders)
 
     for chapter in range(2, 7):
-        text = (Path(book.__file__).parent / f"chapter-{chapter}.md").read_text(encoding="utf-8")
+        pages = sorted(Path(book.__file__).parent.glob(f"chapter-{chapter}*.md"))
+        text = "".join(page.read_text(encoding="utf-8") for page in pages)
         given = {"draw": import_module(f"book.chapter_{chapter}.sliders"), "explore": explore,
                  "Range": Range, "Slider": Slider, "table_5_1": table_5_1}  # fmt: skip
         for cell in re.findall(r"^explore\(.*?^\)", text, re.MULTILINE | re.DOTALL):
