@@ -123,3 +123,76 @@ def test_the_best_regressor_changes_with_what_is_left_out():
     errors = kept_comparison().loc[[*FOUR]]
     assert errors[RANDOM].idxmin() == "Nadaraya-Watson"
     assert errors[WHOLE].idxmin() == "neural network"
+
+
+def test_only_the_cross_validation_may_differ_by_more_than_chance_and_bagging_is_worse_there():
+    """As the words below Table 2.F say."""
+    from book.chapter_2.figures_kind import printed_accuracies, printed_right
+    from softgrip.tactile.accuracy import overlaps
+
+    for place, (_, total, single, bagged) in enumerate(printed_accuracies()):
+        least = min(test.p_value for test in overlaps(*printed_right(place), total))
+        assert (least < 0.05) == (place == 0)
+        assert (float(bagged) < float(single)) == (place < 2)
+
+
+def test_only_the_sausage_has_a_mean_that_chance_hardly_explains():
+    from softgrip.tactile.force import table_2_2
+
+    assert [name for name, row in table_2_2().items() if row.bias_p < 0.05] == ["sliced sausage"]
+
+
+def test_with_the_largest_gains_egg_and_carrot_swing_and_the_tofu_does_not():
+    from book.chapter_2.grasps import study, summary
+
+    swung = {
+        name: summary(study(name, 4.0)).ripple / summary(study(name)).ripple
+        for name in ("egg", "tofu", "carrot")
+    }
+    assert min(swung["egg"], swung["carrot"]) > 10
+    assert swung["tofu"] < 2
+
+
+def test_the_more_elements_feel_a_line_the_better_its_angle_is_told():
+    from book.chapter_2.figures_pad import table_2_c
+
+    rows = table_2_c().set_index("contacts")["angle: median (deg)"]
+    found = [float(rows[f"training, line felt by {n}"]) for n in ("two", "three", "four and more")]
+    assert found[0] > found[1] > found[2]
+
+
+def test_with_one_area_of_the_base_the_pyramid_leads_by_the_equation():
+    from book.chapter_2.figures_element import table_2_b
+
+    for _, row in table_2_b().iterrows():
+        assert float(row["pyramid, equal area"]) > float(row["hemisphere, equal area"])
+
+
+def test_of_a_weight_that_was_left_out_a_curve_that_rises_tells_more_than_a_wider_kernel():
+    from book.chapter_2.forces import WHOLE, WIDE, kept_comparison
+
+    errors = kept_comparison()[WHOLE]
+    assert errors["isotonic regression"] < errors[WIDE] < errors["Nadaraya-Watson"]
+
+
+def test_the_explorer_of_the_bandwidth_shows_what_its_question_asks():
+    """Steps at its narrowest, none at the best one; at its widest the heaviest are too light."""
+    from book.chapter_2.forces import weight_bandwidth
+    from book.chapter_2.sliders import bandwidth
+    from tests.book.explore.page_laws import page_laws
+
+    slider = page_laws()["bandwidth"].ranges["sigma"]
+    assert slider.low < weight_bandwidth() < slider.high
+    within = bandwidth(0.1)["voltage"]
+    within = (within > 0) & (within < 3.5)
+    steps = {}
+    for sigma in (slider.low, weight_bandwidth()):
+        rise = np.diff(bandwidth(sigma)["force"][within])
+        # Where the curve is flat: less than a tenth of its mean slope.
+        steps[sigma] = (rise < 0.1 * rise.mean()).mean()
+    assert steps[slider.low] > 0.5
+    assert steps[weight_bandwidth()] < 0.1
+    voltage, force = weight_points()
+    wide = bandwidth(slider.high)
+    told = np.interp(voltage[force == force.max()], wide["voltage"], wide["force"])
+    assert (told < 65).all()
