@@ -8,7 +8,18 @@ from book.chapter_4.controllers import own_step, settled_on_rig
 from book.chapter_4.figures import GAS_VOLUME, PUSHES
 from book.chapter_4.numbers import steady_state_error
 from book.chapter_4.pushed import pushed
-from book.chapter_4.tables import finger_to_drive
+from book.chapter_4.tables import LEAST_MARGIN, finger_to_drive
+from book.chapter_4.tasks import (
+    constant_share,
+    filter_error,
+    flow_of_the_default_pump,
+    largest_pressure,
+    least_derivative,
+    left_without_integral,
+    rank_by_angle,
+    rank_by_pressure,
+    time_to_pressure,
+)
 from book.companion.choices import choice
 from book.companion.claims import printed
 from book.companion.drawn import drawn
@@ -64,6 +75,12 @@ def _end_of_sensor() -> float:
     return float(log["time"][np.argmax(log["angle"] >= design_1().sensors.angle_range)])
 
 
+def _largest_pressure() -> float:
+    """Return up to which pressure some parts drive the rig's finger, MPa."""
+    finger = finger_to_drive()
+    return largest_pressure(finger.volume_at_rest / ML, finger.rise_time)
+
+
 def _on_rig(design: str) -> StepResponse:
     return judge_step_log(kept_log(f"pid-{design}"), band=choice("pid_band"))
 
@@ -111,4 +128,22 @@ WORDS = {
     "asked_pressure": lambda: f"{finger_to_drive().gauge_pressure / MPa:g}",
     "asked_rise": lambda: f"{finger_to_drive().rise_time:g}",
     "supply": lambda: f"{SUPPLY:g}",
+    "least_margin": lambda: f"{LEAST_MARGIN:g}",
+    # Of the finger, mL, and what the explorer of Table 4.A says of it, MPa
+    "rest_volume": lambda: f"{design_1().finger.rest_volume / ML:.1f}",
+    "largest_pressure": lambda: f"{_largest_pressure():.2f}",
+    # Questions before explorers: %, at both ends of the slider, and deg
+    "stiff_filter": lambda: f"{filter_error(0.01):.0f}",
+    "nervous_filter": lambda: f"{filter_error(30):.0f}",
+    "no_integral": lambda: f"{left_without_integral():.1f}",
+    # Tasks: s, %; states that are observable, mL/s; a factor
+    "time_small": lambda: f"{time_to_pressure('60 mL'):.1f}",
+    "time_large": lambda: f"{time_to_pressure('200 mL'):.1f}",
+    "constant_share": lambda: f"{100 * constant_share():.0f}",
+    "rank_printed": lambda: f"{rank_by_angle(0.0)}",
+    "rank_coupled": lambda: f"{rank_by_angle(0.01)}",
+    "rank_at_rest": lambda: f"{rank_by_pressure([0.0] * 100)}",
+    "rank_moved": lambda: f"{rank_by_pressure([flow_of_the_default_pump() * ML] + [0.0] * 99)}",
+    "default_flow": lambda: f"{flow_of_the_default_pump():.1f}",
+    "least_derivative": lambda: f"{least_derivative():.2f}",
 }
