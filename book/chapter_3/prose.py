@@ -30,8 +30,22 @@ from book.chapter_3.figures_control import (
 from book.chapter_3.numbers import lqr_settling_on_rig
 from book.chapter_3.numbers import optimum as best
 from book.chapter_3.stepped import frequency_step, identified_row, small_motions
+from book.chapter_3.tasks import (
+    BOTTOM,
+    FIRST_STEP,
+    LARGEST_RATE,
+    LEAST_BOTTOM,
+    TOP,
+    frequency_of,
+    least_time_on_the_explorer,
+    settling_time,
+    torque_of,
+    weight_by_the_pole,
+    weight_on_the_explorer,
+)
 from book.chapter_3.torque_and_bending import DESIGNS, blocked_torque
 from book.companion.choices import choice
+from book.companion.claims import printed
 from book.companion.verdict import recomputed
 from softgrip.actuator.bending import Finger, free_bending
 from softgrip.actuator.certificate import TOLERANCE
@@ -99,6 +113,12 @@ def _angle(power: float) -> float:
 
 def _sum(power: float) -> float:
     return float(objective(DesignProblem(fractional_power=power), optimum()))
+
+
+def _traded() -> dict[str, float]:
+    """Return the section of Design 1's height whose b is at the printed limit, mm."""
+    bottom = printed("3.3-range-top-largest")
+    return {"top": TOP + BOTTOM - bottom, "bottom": bottom}
 
 
 def _off(chambers: int) -> float:
@@ -211,5 +231,20 @@ WORDS = {
     "shallow_torque": lambda: f"{over_grooves()[1][-1]:.2f}",
     "most_angle": lambda: f"{max(over_grooves()[2]):.0f}",
     "shallow_angle": lambda: f"{over_grooves()[2][-1]:.0f}",
+    # Questions before explorers: N m, s.
+    "more_bottom": lambda: f"{torque_of(bottom=BOTTOM + 1) - torque_of():.3f}",
+    "more_top": lambda: f"{torque_of(top=TOP + 1) - torque_of():.3f}",
+    "largest_p_settles": lambda: f"{settling_time(LARGEST_RATE, FIRST_STEP):.1f}",
+    # Tasks: mm, N m, rad/s; weights, deg, s.
+    "no_torque": lambda: f"{LEAST_BOTTOM:g}",
+    "torque_there": lambda: f"{torque_of(bottom=LEAST_BOTTOM, wall=LEAST_BOTTOM):g}",
+    "traded_top": lambda: f"{_traded()['top']:g}",
+    "traded_torque": lambda: f"{torque_of(**_traded()):.3f}",
+    "start_torque": lambda: f"{torque_of():.3f}",
+    "traded_frequency": lambda: f"{frequency_of(**_traded()):.2f}",
+    "pole_rate": lambda: f"{weight_by_the_pole():.3f}",
+    "slider_rate": lambda: f"{weight_on_the_explorer():.3f}",
+    "task_step": lambda: f"{FIRST_STEP:g}",
+    "task_time": lambda: f"{least_time_on_the_explorer():.2f}",
     "scale_factor": lambda: f"{min(_scale_factors()):.1f} to {max(_scale_factors()):.1f}",
 }
