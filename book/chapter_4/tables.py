@@ -54,7 +54,7 @@ def table_4_1() -> pd.DataFrame:
         rows.append(
             {
                 "parameter": index + 1,
-                "A (m²)": f"{area:.3e}",
+                "A (cm²)": f"{1e4 * area:.2f}",
                 "mL/s with A": flows["area"],
                 "lead (mm)": f"{lead / MM:g}",
                 "mL/s with lead": flows["lead"],
@@ -70,9 +70,9 @@ def table_4_a() -> pd.DataFrame:
     """Tabulate every combination of parts, judged."""
     return pd.DataFrame(
         {
-            "syringe": s.syringe.name,
-            "lead": s.screw.name,
-            "motor": s.motor.name.removeprefix("NEMA 17, "),
+            "syringe (mL)": f"{s.syringe.volume / ML:.0f}",
+            "lead (mm)": f"{s.screw.lead / MM:g}",
+            "motor (mm)": s.motor.name.removeprefix("NEMA 17, ").removesuffix(" mm"),
             "stroke (mm)": f"{s.stroke / MM:.0f}",
             "rev/s": f"{s.motor_speed / REV:.1f}",
             "thrust (N)": f"{s.thrust:.0f}",
