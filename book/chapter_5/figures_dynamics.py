@@ -163,9 +163,17 @@ def figure_5_d() -> Figure:
 def table_5_c() -> pd.DataFrame:
     """Tabulate what reduces to what."""
     return pd.DataFrame(
-        {"of what to what": a.what, "ratio": f"{a.ratio:.3f}", "agree": "yes" if a.holds else "no"}
+        {
+            "of what to what": _subscripts(a.what),
+            "ratio": f"{a.ratio:.3f}",
+            "agree": "yes" if a.holds else "no",
+        }
         for a in agreements()
     )
+
+
+def _subscripts(words: str) -> str:
+    return words.replace("_n", "ₙ")
 
 
 def _interval(found: Estimate) -> str:

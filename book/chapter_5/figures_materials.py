@@ -33,7 +33,10 @@ from softgrip.units import MPa
 TABLE = "materials/table_5_1.csv"
 FITS = "materials/ludwick_fits.csv"
 FACTS = "materials/tensile_facts.csv"
-TESTS = "ten tensile tests (public, each checked against its sha256 in softgrip.materials.database)"
+TESTS = (
+    "ten tensile tests, where they are at hand (public, each checked against its sha256 in "
+    "softgrip.materials.database)"
+)
 BEST = Fitting()
 
 

@@ -11,7 +11,7 @@ from itertools import product
 
 import numpy as np
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, Number
 from softgrip.dynamics.ludwick import LudwickFinger, step_responses
 from softgrip.reads import remembered
 
@@ -19,13 +19,13 @@ STEP, SAMPLES = 0.05, 401
 """Of the integration, as time by natural frequency: errors below come out to four digits."""
 
 
-def resting_angle(first: float, second: float, power: float) -> float:
+def resting_angle(first: Number, second: Number, power: Number) -> Number:
     """Return where a linear model that is right at one angle rests under another one's force.
 
     >>> resting_angle(60.0, 90.0, 2.0)
     135.0
     """
-    return float(first * (second / first) ** power)
+    return first * (second / first) ** power
 
 
 def largest_share_at_rest(error: float, first: float, second: float, power: float) -> float:
@@ -37,7 +37,7 @@ def largest_share_at_rest(error: float, first: float, second: float, power: floa
         second: Angle at which the record rests.
         power: n of the spring.
     """
-    return (error / (resting_angle(first, second, power) - second)) ** 2
+    return float((error / (resting_angle(first, second, power) - second)) ** 2)
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from math import ceil
 import numpy as np
 
 from book.chapter_5 import figures_dynamics as dynamics
+from book.chapter_5 import tasks
 from book.chapter_5.figures_materials import BEST, meets
 from book.chapter_5.logs import RUNS
 from book.chapter_5.matched_model import (
@@ -35,7 +36,7 @@ from softgrip.actuator.cantilever import angle_limit
 from softgrip.dynamics.consistency import POWER
 from softgrip.dynamics.identify import CONFIDENCE
 from softgrip.materials.facts import facts
-from softgrip.materials.fitting import comes_out, grid
+from softgrip.materials.fitting import comes_out, fractional_power, grid
 from softgrip.materials.leave_out import RIVALS, leave_k_out
 from softgrip.materials.table import table_5_1
 from softgrip.simulator.fitted_rigs import design_1
@@ -154,6 +155,10 @@ WORDS = {
     "strain_percent": lambda: f"{100 * BEST.longest_strain:.0f}",
     "come_out": lambda: f"{len(table_5_1()) - len(_missed())}",
     "missed": lambda: _span(_missed()),
+    "fitted_20": lambda: f"{fractional_power('Dragon Skin 20', BEST):.3f}",
+    "rounded_20": lambda: (
+        f"{fitted_power('Dragon Skin 20', BEST.longest_strain, two_decimals=True):.3f}"
+    ),
     "e_low": lambda: _span(
         100 * hundred_percent_modulus(x) * MPa / table_5_1()[x].young_modulus for x in LOW
     ),
@@ -217,6 +222,16 @@ WORDS = {
     "fitted_ranges": lambda: _pair(map(linear_limit, FINGERS)),
     "away": lambda: f"{STEPS[1] - STEPS[0]}",
     "again": lambda: f"{_again()}",
+    # Answers of the tasks: n, %, correlation, deg.
+    "ends_with": lambda: f"{tasks.ending_power():.2f}",
+    "at_one": lambda: f"{100 * tasks.share_at_one():.0f}",
+    "power_at_least_modulus": lambda: f"{tasks.powers_by_modulus()[0]:.2f}",
+    "power_at_most_modulus": lambda: f"{tasks.powers_by_modulus()[1]:.2f}",
+    "factor_of_modulus": lambda: f"{tasks.modulus_factor():.2f}",
+    "stiff_and_strong": lambda: f"{tasks.stiff_and_strong():.2f}",
+    "window_first": lambda: _pair(tasks.window(ANGLES[0], BOUND), ".1f"),
+    "window_second": lambda: _pair(tasks.window(ANGLES[1], BOUND), ".1f"),
+    "window_width": lambda: f"{tasks.window_width(ANGLES[0], BOUND):.0f}",
     # Figures that the text refers to by another's number.
     "correlations_in": lambda: f"{recomputed(5, '5.2-correlations-shown-in').value:g}",
     "bending_in": lambda: f"{recomputed(5, '5.3-bending-shown-in').value:g}",

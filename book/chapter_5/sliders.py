@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 from book.chapter_5.figures_materials import measured_curve
-from book.companion.style import LUDWICK, MEASURED, OTHER
+from book.chapter_5.matched_model import resting_angle
+from book.companion.style import LINEAR, LUDWICK, MEASURED, OTHER
 from book.explore.plot import Dots, Level, Line, Panel, Plot, Span
 from softgrip.arrays import Number, check_positive
 from softgrip.materials import ludwick, yeoh
@@ -102,4 +103,54 @@ def ludwick_plot() -> Plot:
             )
         ],
         title="{material}, n = {n:.2f}, printed {printed:.3f}",
+    )  # fmt: skip
+
+
+LARGEST = 180.0
+"""Angle up to which springs are drawn, deg."""
+
+
+def straight_spring(n: Number, first: Number, second: Number) -> dict[str, Any]:
+    """Return the forces of two springs that agree at one angle, as parts of one that holds another.
+
+    Args:
+        n: Power of Ludwick's spring, Eq. (5.12); the other one is linear, Eq. (5.9).
+        first: Where they agree, deg.
+        second: Where the force holds Ludwick's spring, deg.
+    """
+    angle = np.linspace(0, LARGEST, 91)
+    rest = resting_angle(first, second, n)
+    return {
+        "angle": angle,
+        "Ludwick": (angle / second) ** n,
+        "linear": angle / rest,
+        "agree": (first / second) ** n,
+        "rest": rest,
+        "missed": rest - second,
+        "outside": 1.0 * (rest > LARGEST),
+    }
+
+
+def straight_spring_plot() -> Plot:
+    """Return the plot of `straight_spring`: two springs under one force."""
+    told = "the linear spring rests at {rest:.1f} deg: {missed:+.1f} deg"
+    return Plot(
+        [
+            Panel(
+                [
+                    Line("angle", "Ludwick", "Ludwick", colour=LUDWICK),
+                    Line("angle", "linear", "linear", colour=LINEAR, dash="6 3"),
+                    Level(1.0, label="the force"),
+                    Level("second", "x", colour=LUDWICK),
+                    Level("rest", "x", colour=LINEAR),
+                    Dots("first", "agree", "they agree", colour=MEASURED, radius=5),
+                    Dots("second", 1.0, colour=LUDWICK, radius=5),
+                    Dots("rest", 1.0, colour=LINEAR, radius=5),
+                ],
+                x=(0, LARGEST), y=(0, 1.8),
+                x_label="angle (deg)", y_label="force, as a part of the one that holds the finger",
+            )
+        ],
+        title=told,
+        cases=[("outside", f"{told} (outside)")],
     )  # fmt: skip

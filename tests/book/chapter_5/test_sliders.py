@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
-from book.chapter_5.sliders import ludwick_law, ludwick_plot, new_material, new_material_plot
+from book.chapter_5.sliders import (
+    ludwick_law,
+    ludwick_plot,
+    new_material,
+    new_material_plot,
+    straight_spring,
+    straight_spring_plot,
+)
 from book.explore import Range, Slider, explore
 from softgrip.errors import InvalidInputError
 from softgrip.materials.powerlaw import predict_power
@@ -40,3 +47,16 @@ def test_title_says_the_prediction_and_where_it_extrapolates():
     assert "extrapolated" in title(new_material_plot(), new_material(3.0, 15.0, 2.5))
     with pytest.raises(InvalidInputError, match="young_modulus"):
         new_material(-0.3, 15.0, 2.5)
+
+
+def test_both_springs_hold_where_they_are_said_to():
+    law = straight_spring(2.0, 60.0, 90.0)
+    forces = [np.interp(angle, law["angle"], law[name])
+              for name, angle in (("Ludwick", 90), ("linear", law["rest"]))]  # fmt: skip
+    # Points stand two degrees apart: the chord of a parabola lies (1 / 90)^2 above it at most.
+    assert forces == pytest.approx([1, 1], abs=1.3e-4)
+    for name in ("Ludwick", "linear"):
+        assert np.interp(60, law["angle"], law[name]) == pytest.approx(law["agree"])
+    told = title(straight_spring_plot(), law)
+    assert told == "the linear spring rests at 135.0 deg: +45.0 deg"
+    assert "outside" in title(straight_spring_plot(), straight_spring(2.6, 20.0, 120.0))

@@ -216,6 +216,22 @@ def ludwick_law(material, n):
     }
 
 
+def straight_spring(n, first, second):
+    angle = np.linspace(0, 180, 91)
+    # Stiffnesses of the two, such that a force of one holds the second angle.
+    curved = second**-n
+    linear = curved * first ** (n - 1)
+    return {
+        "angle": angle,
+        "Ludwick": curved * angle**n,
+        "linear": linear * angle,
+        "agree": linear * first,
+        "rest": 1 / linear,
+        "missed": 1 / linear - second,
+        "outside": 1 / linear > 180,
+    }
+
+
 def gripper_run(bandwidth, spread, noise, disturbance):
     gripper, outer = as_far_apart(spread), disturbance * DEG
     goal = project(gripper, [np.pi / 3] * 2).reached
@@ -277,7 +293,7 @@ def reach(frequency, spread, first, second):
 CHAPTERS = {
     function.__name__: function
     for function in (element, bandwidth, finger, lqr, pump, capacity_filter, pid, sizing,
-                     new_material, ludwick_law, reach, gripper_step, gripper_push)
+                     new_material, ludwick_law, straight_spring, reach, gripper_step, gripper_push)
 }  # fmt: skip
 CASES = [
     pytest.param(name, words, id="-".join([name, *words.values()]))
