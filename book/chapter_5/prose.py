@@ -55,8 +55,8 @@ def _span(values: Iterable[float], form: str = ".0f") -> str:
 
 
 def _pair(values: Iterable[float], form: str = ".0f") -> str:
-    first, second = values
-    return f"{first:{form}} and {second:{form}}"
+    first, second = (f"{value:{form}}" for value in values)
+    return first if first == second else f"{first} and {second}"
 
 
 def _missed() -> list[float]:

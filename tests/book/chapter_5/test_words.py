@@ -9,6 +9,7 @@ from book.chapter_5.figures_materials import fits, meets
 from book.chapter_5.logs import RUNS
 from book.chapter_5.numbers import BOUND, linear_limit, printed_rms
 from book.chapter_5.prose import EARLY, LOW, _end
+from book.chapter_5.sliders import new_material
 from book.chapter_5.step_models import ANGLES, FINGERS, fit_test, kept_test
 from book.chapter_5.step_protocols import kept_errors
 from book.chapter_5.step_sweep import KEPT
@@ -16,6 +17,8 @@ from book.companion.claims import claim_of, printed
 from book.companion.verdict import judge
 from softgrip.materials import ludwick
 from softgrip.materials.facts import facts
+from softgrip.materials.fitting import Fitting, ranking
+from softgrip.materials.leave_out import leave_k_out
 from softgrip.materials.table import fractional_powers, properties, table_5_1
 from softgrip.simulator.fitted_rigs import design_1
 from softgrip.units import DEG, MPa
@@ -157,3 +160,36 @@ def test_free_power_goes_away_from_that_of_the_rig():
     found = fit_test(kept_test("Design 1", ANGLES[0]), fractional_power=None).fractional_power
     power = design_1().finger.fractional_power
     assert not found.low < power < found.high
+
+
+def test_one_way_comes_nearest_to_the_printed_errors():
+    own = printed_rms()
+    worst = {
+        name: max(abs(errors[key] / own[key] - 1) for key in own)
+        for name, errors in kept_errors().items()
+        if not any(map(np.isnan, errors.values()))
+    }
+    assert min(worst, key=worst.get) == "the same, the gain matched"
+
+
+def test_by_engineering_stress_no_printed_power_comes_out():
+    assert {one.come_out for one in ranking() if one.fitting == Fitting(stress="engineering")} == {
+        0
+    }
+
+
+def test_powers_that_grow_with_the_strain_used_are_those_that_are_named():
+    growing = {name for name in table_5_1() if fits(name)[1][-1] > fits(name)[1][0]}
+    named = {x for x in table_5_1() if "Ecoflex" in x} | {"Dragon Skin FX Pro", "Mold Star 16 FAST"}
+    assert growing == named
+
+
+def test_weakest_material_is_the_one_that_is_missed_most():
+    strengths = {name: m.tensile_strength for name, m in table_5_1().items()}
+    assert leave_k_out(1).worst.name == min(strengths, key=strengths.get) == "Ecoflex 00-10"
+
+
+def test_band_of_a_new_material_is_about_as_wide_as_the_ten_powers_are_apart():
+    found = new_material(0.35, 19.0, 3.2)  # where the sliders start
+    powers = [m.fractional_power for m in table_5_1().values()]
+    assert (found["high"] - found["low"]) / np.ptp(powers) == pytest.approx(1, abs=0.15)
