@@ -139,7 +139,8 @@ def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
         weights.plot(*run_deviation(runs, 0), ".", color=colour, ms=4, label=label)
         look = {"color": colour, "ls": dash, "lw": 1.6, "histtype": "step"}
         errors.hist(found, bins, label=f"{label} ({found.std(ddof=1):.2f} deg)", **look)
-    weights.axvspan(*PRINTED_BAND["6.5"], fill=False, ec=PRINTED, ls=":")
+    words = "printed as excited"
+    weights.axvspan(*PRINTED_BAND["6.5"], fill=False, ec=PRINTED, ls=":", label=words)
     steps.set(title="(a) steps of the left finger", ylabel="angle (deg)")
     steps.set_xlabel("time since the push ended (s)")
     _bound(weights)
@@ -147,6 +148,7 @@ def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
     errors.set_ylim(top=1.5 * errors.get_ylim()[1])  # leaves room for the legend
     errors.legend(loc="upper right")
     steps.legend(loc="lower right")
+    weights.legend(loc="lower right")
     return drawn
 
 
@@ -219,7 +221,7 @@ def table_6_i() -> pd.DataFrame:
     noisy, bare = 100 * bounds(found), 100 * bounds(quiet)
     rows = [
         ("damping by mass (1/s)", "2.45 and 2.66", means[:, 0], "{:.2f}"),
-        ("stiffness by mass (1/s^2)", "3.06 and 3.61", means[:, 1], "{:.2f}"),
+        ("stiffness by mass (1/s²)", "3.06 and 3.61", means[:, 1], "{:.2f}"),
         ("largest deviation of the damping (%)", "14.3", noisy[:, 0], "{:.1f}"),
         ("the same without sensor noise (%)", "", bare[:, 0], "{:.1f}"),
         ("largest deviation of the stiffness (%)", "5.9", noisy[:, 1], "{:.1f}"),

@@ -81,9 +81,10 @@ def figure_6_d() -> Figure:
             (low, [100 * p.worst_sync for p in own]),
         ):
             axes.plot(spread, values, color=colour, ls=line, label=f"{count} fingers")
-            axes.axvline(100 * STIFFNESS_BOUND, color=GREY, lw=0.8)
+    for axes in (top, low):
+        axes.axvline(100 * STIFFNESS_BOUND, color=GREY, lw=0.8, label="printed spread")
     top.set(title="(a) kept at rest", ylabel="error (deg)", ylim=(0, None), xlim=(0, 20))
-    low.set(title="(b) on the way", xlabel="spread of K_n (± %)", ylabel="difference (%)")
+    low.set(title="(b) on the way", xlabel="spread of the stiffness (± %)", ylabel="difference (%)")
     low.set_ylim(0, None)
     top.legend(loc="upper left")
     return drawn

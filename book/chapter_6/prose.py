@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from book.chapter_6 import comparison, finger_count, numbers, results, shown, speed
+from book.chapter_6 import comparison, finger_count, numbers, results, shown, speed, tasks
 from book.chapter_6 import figures_model as model
 from book.chapter_6 import figures_study as study
 from book.chapter_6.controllers import WANTED
@@ -95,7 +95,7 @@ WORDS = {
     "asked": lambda: f"{180 * printed('6.4-target-of-the-simulation'):.0f}",
     "equal_low": lambda: f"{100 * shown.outside('equal angles', 0):.0f}",
     "half": lambda: f"{shown.half_outside():.0f}",
-    "proj_high": lambda: f"{100 * shown.outside('proj(Y_d)', 1):.0f}",
+    "proj_high": lambda: f"{100 * shown.outside('nearest at rest', 1):.0f}",
     "apart_fast": lambda: f"{shown.farthest_apart('4.8/s') / DEG:.0f}",
     "apart_slow": lambda: f"{shown.farthest_apart('2/s') / DEG:.1f}",
     "crossover_fast": lambda: f"{CROSSOVER['4.8/s']:g}",
@@ -147,6 +147,33 @@ WORDS = {
     "least_high": lambda: f"{100 * shown.least_differences()[1]:.1f}",
     "slow_time": lambda: f"{study.outcome('2/s', pairs=1).settling[0].max():.1f}",
     "slow_apart": lambda: f"{100 * study.outcome('2/s', pairs=1).synchronization[0]:.1f}",
+    # Why the fingers end where they do, Table 6.D.
+    "first_command": lambda: f"{shown.first_commands()[0]:.1f}",
+    "second_command": lambda: f"{-shown.first_commands()[1]:.1f}",
+    "third_command": lambda: f"{-shown.first_commands()[2]:.1f}",
+    "short_rad": lambda: f"{shown.cut_end(SPEED_LIMIT):.2f}",
+    "short_rev": lambda: f"{shown.cut_end(SPEED_LIMIT / REV):.2f}",
+    # Tasks.
+    "task_first": lambda: f"{tasks.FIRST:g}",
+    "task_frequency": lambda: f"{tasks.SWINGING:g}",
+    "task_partner": lambda: f"{tasks.partner(0.0)[0]:.1f}",
+    "task_swinging": lambda: f"{tasks.partner(tasks.SWINGING)[0]:.1f}",
+    "task_missed": lambda: f"{100 * tasks.partner(tasks.SWINGING)[1]:.1f}",
+    "task_from": lambda: f"{tasks.FROM:g}",
+    "task_to": lambda: f"{tasks.TO:g}",
+    "task_grows": lambda: f"{tasks.first_command(tasks.TO) / tasks.first_command(tasks.FROM):.1f}",
+    "task_grows_most": lambda: f"{(tasks.TO / tasks.FROM) ** 3:g}",
+    "task_slow": lambda: f"{tasks.largest_bandwidth(_limit(1)):.1f}",
+    "task_fast": lambda: f"{tasks.largest_bandwidth(_limit(2)):.1f}",
+    "task_times": lambda: f"{_limit(2) / _limit(1):.1f}",
+    "task_gain": lambda: (
+        f"{tasks.largest_bandwidth(_limit(2)) / tasks.largest_bandwidth(_limit(1)):.1f}"
+    ),
+    "task_push": lambda: f"{tasks.PUSH:g}",
+    "task_left": lambda: f"{tasks.kept_of_push(tasks.PUSH)[0]:.1f}",
+    "task_right": lambda: f"{-tasks.kept_of_push(tasks.PUSH)[1]:.1f}",
+    "task_meets": lambda: f"{tasks.MEETS:g}",
+    "task_meets_at": lambda: f"{tasks.push_to_meet(tasks.MEETS):.1f}",
     # What was found.
     "found_missed": lambda: f"{100 * shown.missed_on_the_way():.0f}",
     "found_off": lambda: f"{np.ceil(10 * shown.largest_deviation()) / 10:g}",
@@ -155,6 +182,7 @@ WORDS = {
     "found_overshoot": lambda: f"{100 * shown.settles_about(1)[0]:.0f}",
     "found_late": lambda: f"{shown.settles_about(0)[1]:.2f}",
     "found_early": lambda: f"{shown.settles_about(1)[1]:.2f}",
+    "sampled_bands": lambda: "{:.1f} to {:.1f}".format(*(100 * shown.sampled_bands())),
     "found_rig_fast": lambda: f"{numbers.settled_on_rig('4.8/s'):.1f}",
     "found_rig_slow": lambda: f"{numbers.settled_on_rig('2/s'):.1f}",
     "found_band": lambda: f"{100 * comparison.criteria()['fitted'][0]:.2g}",

@@ -5,6 +5,7 @@ import numpy as np
 from book.chapter_6 import figures_model, figures_study, filters, finger_count, grasps, results
 from book.chapter_6.controllers import WANTED
 from book.chapter_6.figures_rig import MODELLED, model_deviation
+from book.companion.claims import printed
 from book.companion.verdict import recomputed
 from softgrip.arrays import Floats
 from softgrip.control.step_metrics import overshoot, settling_time
@@ -52,7 +53,7 @@ def outside(target: str, end: int) -> float:
 
 def missed_on_the_way() -> float:
     """Return the largest share of proj(Y_d) that is out of reach at any frequency of Figure 6.A."""
-    goal = figures_model.ASKED["proj(Y_d)"]
+    goal = figures_model.ASKED["nearest at rest"]
     return float(outside_share(PRINTED, goal, figures_model.LOW_TO_HIGH).max())
 
 
@@ -95,6 +96,34 @@ def settles_about(end: int) -> tuple[float, float]:
     goal = equal_targets()
     band = (np.floor(1000 * float(overshoot(found.angles, target=goal)[0])) + end) / 1000
     return float(band), float(settling_time(found.time, found.angles, final=goal, band=band).max())
+
+
+def sampled_bands() -> Floats:
+    """Return the narrowest and the widest band with which the printed time comes out sampled.
+
+    Shares of the target, in tenths of a percent: of Figure 6.6 (a) at the stated period, within the
+    rounding of the printed settling time.
+    """
+    found, goal = run_printed(), equal_targets()
+    bands = np.arange(0.02, 0.1, 0.001)
+    times = np.array(
+        [settling_time(found.time, found.angles, final=goal, band=band).max() for band in bands]
+    )
+    return bands[np.abs(times - printed("6.4-simulated-settling")) < 0.05][[0, -1]]
+
+
+def first_commands() -> Floats:
+    """Return the first three commands of a step to pi/3 by the filter for 4.8/s, unit of U."""
+    return run_printed().commands[:3]
+
+
+def cut_end(limit: float) -> float:
+    """Return where the fingers end over their targets if the commands of that step are cut.
+
+    A model inside that is told of the limit moves as the fingers do, so that nothing is fed back.
+    """
+    free = run_printed(duration=8.0).commands
+    return float(np.clip(free, -limit, limit).sum() / free.sum())
 
 
 def peak(target: str, angle: float = WANTED) -> float:
