@@ -11,6 +11,7 @@ from sphinx.application import Sphinx
 from book.build import (
     accessible,
     api,
+    cards,
     claim_role,
     equations,
     execution,
@@ -19,6 +20,7 @@ from book.build import (
     notebooks,
     numbering,
     tracing,
+    typed_numbers,
     vendor,
 )
 from book.companion.judged import VARIABLE
@@ -132,11 +134,13 @@ def setup(app: Sphinx) -> dict[str, Any]:
     """Connect the parts to the stages of a build."""
     accessible.setup(app)
     api.setup(app)
+    cards.setup(app)
     claim_role.setup(app)
     light.setup(app)
     notebooks.setup(app)
     equations.setup(app)
     numbering.setup(app)
+    typed_numbers.setup(app)
     app.connect("config-inited", use_local_scripts)
     app.connect("builder-inited", prepare_kernels)
     app.connect("env-get-outdated", find_stale_pages)
@@ -144,4 +148,9 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("source-read", announce)
     app.connect("html-page-context", add_scripts)
     app.add_css_file("softgrip.css")
-    return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}
+    return {
+        "version": "1",
+        "env_version": 1,  # another: all pages are read anew, as what is noted of them has changed
+        "parallel_read_safe": False,
+        "parallel_write_safe": True,
+    }

@@ -5,6 +5,7 @@ its verdicts hang on has changed, and a page that tells them hangs on the same.
 """
 
 import json
+import os
 import re
 from collections.abc import Iterable
 from pathlib import Path
@@ -35,6 +36,16 @@ def missing(pages: Iterable[str], folder: Path) -> list[int]:
     told = {chapter for page in pages for chapter in TELLS.findall(page)}
     wanted = [n for n in (6, 3, 2, 5, 4) if "" in told or str(n) in told]
     return [n for n in wanted if not file_of(folder, n).is_file()]
+
+
+def ensure(chapters: Iterable[int]) -> None:
+    """Judge those chapters, of which pages set numbers, that no page tells."""
+    from book.companion.judged import VARIABLE, file_of
+
+    folder = Path(os.environ[VARIABLE])
+    for chapter in sorted(chapters):
+        if not file_of(folder, chapter).is_file():
+            judge_apart(folder, chapter)
 
 
 def judge_apart(folder: Path, chapter: int) -> None:

@@ -73,11 +73,9 @@ def _banded(entry: Entry) -> str:
     )
 
 
-def _remarks(entry: Entry) -> str:
+def reason(entry: Entry) -> str:
+    """Return in words why an entry has its outcome: its band, what is assumed, notes."""
     claim, author = entry.claim, entry.record()["author"]
-    used = ", ".join(
-        f'<a href="{row_address(name)}">{name}</a>' for name in sorted(claim.stands_on)
-    )
     parts = [
         claim.regardless,
         _banded(entry),
@@ -86,7 +84,14 @@ def _remarks(entry: Entry) -> str:
         claim.needs and f"To check it: {claim.needs.rstrip('.')}.",
         claim.note,
     ]
-    text = html.escape(" ".join(filter(None, parts)))
+    return " ".join(filter(None, parts))
+
+
+def _remarks(entry: Entry) -> str:
+    used = ", ".join(
+        f'<a href="{row_address(name)}">{name}</a>' for name in sorted(entry.claim.stands_on)
+    )
+    text = html.escape(reason(entry))
     text += f" Stands on {used}." if used else ""
     return f"<details><summary>remarks</summary>{text.strip()}</details>" if text else ""
 
@@ -101,6 +106,18 @@ def printed_cell(claim: Claim) -> str:
 def range_cell(entry: Entry) -> str:
     """Return what comes out, as one number where its ends read the same."""
     return _range(entry.spread.low, entry.spread.high) if entry.spread else ""
+
+
+def recomputed_cell(entry: Entry) -> str:
+    """Return what comes out, and beside it what does under the assumption."""
+    assumed = entry.under_assumption
+    beside = "" if assumed is None else f" <small>if assumed: {_number(assumed)}</small>"
+    return f"{range_cell(entry)}{beside}"
+
+
+def basis_cell(entry: Entry) -> str:
+    """Return the basis, or of what has none its nature."""
+    return entry.basis or (entry.claim.nature if entry.claim.nature != "result" else "")
 
 
 def _permalink(claim: Claim) -> str:
@@ -123,18 +140,15 @@ def _valued(value: float | None) -> str:
 
 def _row(entry: Entry) -> str:
     claim, value = entry.claim, entry.spread.value if entry.spread else None
-    assumed = entry.under_assumption
-    beside = "" if assumed is None else f" <small>if assumed: {_number(assumed)}</small>"
-    basis = entry.basis or (claim.nature if claim.nature != "result" else "")
     data = f'data-outcome="{entry.outcome}" data-basis="{entry.basis or NONE}"'
     return (
         f'<tr id="claim-{claim.id}" {data}>'
         f"<td>{html.escape(claim.what)} {_permalink(claim)} "
         f'<div class="more">{_computed_by(entry)}{_remarks(entry)}</div></td>'
         f'<td class="number"{_valued(float(claim.printed))}>{printed_cell(claim)}</td>'
-        f'<td class="number"{_valued(value)}>{range_cell(entry)}{beside}</td>'
+        f'<td class="number"{_valued(value)}>{recomputed_cell(entry)}</td>'
         f"<td{_valued([*Outcome].index(entry.outcome))}>{chip(entry.outcome, entry.outcome)}</td>"
-        f"<td>{basis}</td><td>{told(claim.id)}</td></tr>"
+        f"<td>{basis_cell(entry)}</td><td>{told(claim.id)}</td></tr>"
     )
 
 

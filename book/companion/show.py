@@ -66,17 +66,26 @@ class Shown:
     """Whether this is the place that its number names."""
 
     @cached_property
-    def verdicts(self) -> str:
-        """The verdicts on the numbers printed at this place, counted."""
+    def _outcomes(self) -> Counter[Outcome]:
         item = self.exhibit
         if item.drawing or not (item.in_dissertation and self.numbered):
-            return ""
+            return Counter()
         entries = ledger(int(item.number.split(".")[0]), [item.title])
-        count = Counter(entry.outcome for entry in entries)
-        return " ".join(
-            chip(found, f"{count[found]} {found}", address(place=item.title, outcome=found))
-            for found in count
-        )
+        return Counter(entry.outcome for entry in entries)
+
+    def _chip(self, outcome: Outcome, words: str) -> str:
+        """Return a label that leads to the numbers printed here that have an outcome."""
+        place = self.exhibit.title
+        to = address(place=place, outcome=outcome) if self._outcomes[outcome] else ""
+        return chip(outcome, words, to)
+
+    def _cell(self, value: object) -> str:
+        return self._chip(value, value) if isinstance(value, Outcome) else str(value)
+
+    @cached_property
+    def verdicts(self) -> str:
+        """The verdicts on the numbers printed at this place, counted."""
+        return " ".join(self._chip(found, f"{n} {found}") for found, n in self._outcomes.items())
 
     def _facts(self) -> list[str]:
         item, data = self.exhibit, self.made.data
@@ -113,7 +122,7 @@ class Shown:
         )
         provenance = f"\n\n::::{{container}} provenance\n{strip}\n::::\n"
         if item.kind == "table":
-            rows = markdown_table(self.made.shown, _cell)
+            rows = markdown_table(self.made.shown, self._cell)
             body = f":::::{{table}} {item.caption}\n:name: {item.label}\n\n{rows}\n:::::"
         else:
             body = (

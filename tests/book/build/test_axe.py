@@ -88,3 +88,20 @@ def test_no_page_violates_a_rule(html, page, axe):
             page.evaluate(SETTLE, scheme)
             found = page.evaluate(VIOLATIONS, SCHEMES[scheme])
             assert found == [], (file.name, scheme, width)
+
+
+@pytest.mark.usefixtures("local_scripts")
+@pytest.mark.parametrize("kind", ["claim", "term", "equation"])
+def test_no_open_card_violates_a_rule(html, page, axe, kind):
+    file = next(f for f in pages(html) if f'id="card-{kind}-' in f.read_text(encoding="utf-8"))
+    page.goto(file.as_uri())
+    page.add_style_tag(content=CALM)
+    page.evaluate(axe)
+    for scheme, width in product(SCHEMES, WIDTHS):
+        page.emulate_media(color_scheme=scheme)
+        page.set_viewport_size({"width": width, "height": 900})
+        page.evaluate(SETTLE, scheme)
+        mark = page.locator(f"a[aria-describedby^='card-{kind}-']").first
+        mark.evaluate("mark => { mark.blur(); mark.focus({ focusVisible: true }) }")
+        assert page.locator(".note-card:popover-open").count() == 1, (scheme, width)
+        assert page.evaluate(VIOLATIONS, SCHEMES[scheme]) == [], (scheme, width)

@@ -5,40 +5,11 @@ import tomllib
 
 import pytest
 
+from book.build.typed_numbers import typed, typed_on_page
 from book.companion.exhibit import BOOK, chapters
 from book.companion.prose import word, words
 from softgrip.errors import UnknownNameError
 
-LIST = r"(?:(?:,| and| to| or|-) ?\(?[\d.]+\w?\)?)*"
-NOT_NUMBERS = re.compile(
-    # Computed, code, symbols, links, HTML; then what has a number for a name: places of the
-    # dissertation, materials, parts, versions, dates, preprints.
-    r"\{\{ \S+ \}\}|\{[\w:]+\}`[^`]*`|`[^`]*`|\$[^$]*\$|\]\([^)]*\)|<[^>]*>"
-    r"|(?:Sections?|Chapters?|Figures?|Tables?|Eqs?\.|Theorem|Assumption|Remark|Task)"
-    rf" \(?[\d.]+\w?\)?{LIST}"
-    rf"|(?:Designs?|SPA|Variances?|[Rr]ows?|[Pp]arts?) \d{LIST}"
-    r"|Ecoflex™? \d\d-\d\d|Dragon Skin \d\d|Mold Star \d\d\w*|SORTA-Clear \d\d"
-    r"|(?:NEMA|MEGA|Mega|Python|version) [\d.]+|\b[A-Za-z]+_?\d\w*\b"
-    r"|\b(?:In|\d\d? [A-Z][a-z]+) (?:19|20)\d\d\b|\b\d{4}\.\d{5}\b"
-)
-UNITS = "degrees?|deg|millimet(?:re|er)s?|seconds?|minutes?|percent|times (?:as|too|that|the)"
-IN_WORDS = re.compile(
-    r"\b(?:two|three|four|five|six|seven|eight|nine|ten|eleven|twelve|\w+teen|twenty|hundred)"
-    rf"(?: and a half)? (?:{UNITS})\b"
-)
-
-
-def typed(text: str) -> list[str]:
-    """Return the numbers of a text that stand there as such: figures, and words before a unit."""
-    rest = NOT_NUMBERS.sub("", " ".join(text.split()))
-    return re.findall(r"\d[\d.,]*", rest) + IN_WORDS.findall(rest)
-
-
-NO_PROSE = re.compile(
-    r"\A---\n.*?\n---\n|^ *(`{3,})[^`\n]*\n.*?^ *\1$|^\$\$$.*?^\$\$[^\n]*$|^ *\d\. ",
-    re.DOTALL | re.MULTILINE,
-)
-"""Front matter, fenced blocks such as cells, displayed equations, numbers of a list's points."""
 PAGES = {page.stem: page.read_text("utf-8") for page in sorted(BOOK.glob("*.md"))}
 ROOMS = {
     # One page or several; of Chapter 1 its captions alone.
@@ -63,6 +34,14 @@ def test_a_typed_number_is_seen():
     ]
 
 
+def test_a_typed_number_is_told_by_the_line_of_its_paragraph():
+    """Front matter, cells, equations and points of lists hold numbers that are none of prose."""
+    page = "---\nversion: 0.13\n---\n\n# Title\n\n1. One.\n2. Two is\n   2 mm.\n\n"
+    page += "```{code-cell}\nx = 3\n\ny = 4\n```\n\n$$\nx = 5\n$$ (eq-3-1)\n\nsome\n6 N."
+    lines = page.splitlines()
+    assert [*typed_on_page(page)] == [(7, ["2"]), (lines.index("some") + 1, ["6"])]
+
+
 @pytest.mark.parametrize("chapter", chapters())
 def test_no_number_in_a_caption_is_typed(chapter):
     told = tomllib.loads((BOOK / f"chapter_{chapter}/captions.toml").read_text("utf-8"))
@@ -72,8 +51,7 @@ def test_no_number_in_a_caption_is_typed(chapter):
 
 @pytest.mark.parametrize("page", PAGES)
 def test_no_number_in_the_prose_of_a_page_is_typed(page):
-    paragraphs = NO_PROSE.sub("\n", PAGES[page]).split("\n\n")
-    assert {text: numbers for text in paragraphs if (numbers := typed(text))} == {}
+    assert [*typed_on_page(PAGES[page])] == []
 
 
 @pytest.mark.parametrize("room", ROOMS)
