@@ -10,7 +10,7 @@ TESTS := $(VENV)/ready-for-tests
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help book book-version test lint lab figures ledger accept bench bench-book sentences rig-test picture lock clean
+.PHONY: help book book-version pdf test lint lab figures ledger accept bench bench-book sentences rig-test picture lock clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z][a-z%-]*:.*## ' $(MAKEFILE_LIST) | sort \
@@ -35,6 +35,9 @@ book: book-version  ## build the book: book/_build/html/index.html
 book-version: $(READY)
 	@$(BIN)/python -c 'from importlib.metadata import version; found = version("jupyter-book"); \
 	  found.startswith("1.") or exit(f"The book needs jupyter-book 1.x, $(VENV) has {found}: rm -r $(VENV), make book")'
+
+pdf: $(TESTS) book  ## print the built book as one PDF: book/_build/softgrip.pdf (needs Chromium)
+	@$(BIN)/python -m book.build.pdf
 
 test: $(TESTS)  ## run the tests; those of the pages build the book and open it in Chromium
 	@$(BIN)/python -m pytest -n auto --dist loadfile --no-loadscope-reorder \
