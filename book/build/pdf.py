@@ -39,6 +39,14 @@ TAKE = r"""async ([page, depth]) => {
   const article = document.querySelector("article.bd-article");
   article.querySelectorAll("script, noscript, .headerlink, button").forEach((it) => it.remove());
   article.querySelectorAll("details").forEach((it) => { it.open = true; });
+  // A reason is as wide as its table, and needs a third of the lines.
+  for (const it of article.querySelectorAll("table.numbers td .more")) {
+    const row = document.createElement("tr"), cell = row.insertCell(), above = it.closest("tr");
+    row.className = "reason";
+    cell.colSpan = above.cells.length;
+    cell.append(it);
+    above.after(row);
+  }
   // A section may begin at the foot of a sheet, and its heading on the next: that is its place.
   for (const it of article.querySelectorAll("section[id] > :is(h1, h2, h3, h4):not([id])")) {
     it.id = it.parentElement.id;
