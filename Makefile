@@ -36,7 +36,7 @@ book-version: $(READY)
 	@$(BIN)/python -c 'from importlib.metadata import version; found = version("jupyter-book"); \
 	  found.startswith("1.") or exit(f"The book needs jupyter-book 1.x, $(VENV) has {found}: rm -r $(VENV), make book")'
 
-pdf: $(TESTS) book  ## print the built book as one PDF: book/_build/softgrip.pdf (needs Chromium)
+pdf: book $(TESTS)  ## print the built book as one PDF: book/_build/softgrip.pdf (needs Chromium)
 	@$(BIN)/python -m book.build.pdf
 
 test: $(TESTS)  ## run the tests; those of the pages build the book and open it in Chromium
