@@ -10,11 +10,12 @@ TESTS := $(VENV)/ready-for-tests
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help book book-version pdf test lint lab figures ledger accept bench bench-book sentences rig-test picture lock clean
+.PHONY: help book book-version pdf test lint lab figures ledger accept data-package archive bench \
+  bench-book sentences rig-test picture lock clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z][a-z%-]*:.*## ' $(MAKEFILE_LIST) | sort \
-	  | awk -F ':.*## ' '{ printf "  make %-10s %s\n", $$1, $$2 }'
+	  | awk -F ':.*## ' '{ printf "  make %-12s %s\n", $$1, $$2 }'
 
 $(READY): environment.lock pyproject.toml
 	@found=$$(.ci/pythons $(PYTHON)) || exit 1; \
@@ -49,14 +50,13 @@ lint: $(TESTS)  ## check style, types and the direction of imports
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports --no-cache
 
-# Without the setting a chapter, being Markdown, would open as text.
-LAB := $(VENV)/share/jupyter/lab/settings
-lab: $(READY)  ## open the chapters as notebooks in JupyterLab
-	@mkdir -p $(LAB)
-	@echo '{"@jupyterlab/docmanager-extension:plugin": {"defaultViewers": {"markdown": "Jupytext Notebook"}}}' \
-	  > $(LAB)/overrides.json
-	@$(BIN)/python -m book.build.vendor
-	@$(BIN)/jupyter lab --notebook-dir=book
+# Copies, in which what the built book knows is text: the pages themselves are not touched. Their
+# links lead to the built book, which the same server has.
+lab: book  ## open the pages as notebooks in JupyterLab, as copies in book/_build/lab
+	@$(BIN)/python -m book.build.lab
+	@SOFTGRIP_BOOK_ADDRESS=/static/ $(BIN)/jupyter lab --notebook-dir=book/_build/lab \
+	  --LabApp.default_url=/lab/tree/index.ipynb \
+	  --ServerApp.extra_static_paths="['$(CURDIR)/book/_build/html']"
 
 figures: $(READY)  ## write every figure and table to book/_build/figures
 	@$(BIN)/python -m book.companion.figures
@@ -72,6 +72,12 @@ ledger: $(READY)  ## judge every printed number: book/_build/ledger.json
 
 accept: $(READY)  ## make today's verdicts the expected ones (look at the diff)
 	@$(BIN)/python -m book.companion.ledger --accept
+
+data-package: $(READY)  ## describe data/ anew, from its files and book/build/data_package.toml
+	@$(BIN)/python -m book.build.data_package
+
+archive: book-version  ## write one file to keep, in dist/; WHEELS=1: with all packages, for this platform
+	@$(BIN)/python -m book.build.archive $(if $(WHEELS),--wheels)
 
 bench: $(TESTS)  ## measure the speed of simulation and control: book/_build/bench.json
 	@$(BIN)/python -m tests.bench

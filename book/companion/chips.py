@@ -1,15 +1,18 @@
 """Verdicts as a page shows them: as small labels, as the ledger's table, as counts."""
 
 import html
+import re
 from collections import Counter
 from dataclasses import dataclass
+from functools import cache
 from math import inf
+from pathlib import Path
 
 import pandas as pd
 
 from book.companion.claims import Basis, Claim, read_claims, references
 from book.companion.errata import Erratum, errata
-from book.companion.ledger_address import NONE, address, row_address
+from book.companion.ledger_address import NONE, address, in_book, row_address
 from book.companion.ledger_form import filter_form
 from book.companion.markdown import Markdown, in_static_book, markdown_table
 from book.companion.slips import ASSUMPTION, PRINT, RESULT, Change
@@ -130,7 +133,8 @@ def _computed_by(entry: Entry) -> str:
     if not entry.function:
         return ""
     package, _, name = entry.function.rsplit(".", 2)
-    return f'<a class="by" href="api/{package}.html#{entry.function}"><code>{name}</code></a> '
+    page = in_book(f"api/{package}.html")
+    return f'<a class="by" href="{page}#{entry.function}"><code>{name}</code></a> '
 
 
 def _valued(value: float | None) -> str:
@@ -152,7 +156,7 @@ def _row(entry: Entry) -> str:
     )
 
 
-TWIN = '<a href="one-rig.html">within the twin\'s reach</a>'
+TWIN = "within the twin's reach"
 """Head of the column that says what one simulated rig makes of a print."""
 
 
@@ -162,7 +166,7 @@ def verdict_table(entries: list[Entry]) -> str:
     Tables, bodies and rows bear as data what a reader may filter them by.
     """
     heads = {name: name for name in ("what", "printed", "recomputed", "outcome", "basis")}
-    heads["twin"] = TWIN
+    heads["twin"] = f'<a href="{in_book("one-rig.html")}">{TWIN}</a>'
     head = "".join(f'<th scope="col" data-sort="{n}">{words}</th>' for n, words in heads.items())
     chapter = entries[0].claim.chapter
     places: dict[str, list[Entry]] = {}
@@ -315,6 +319,21 @@ def assumptions_table(entries: list[Entry]) -> str:
     return markdown_table(pd.DataFrame(rows))
 
 
+STYLES = Path(__file__).parents[1] / "_static" / "softgrip.css"
+LINKED = "a.verdict { color: #16181d !important; text-decoration: none; }"
+"""A notebook has a colour of its own for links, which on a label cannot be read in its dark scheme."""
+STYLED = re.compile(r"^(?:\.verdict|table\.ledger)[^{}]*\{[^{}]*\}$", re.M)
+
+
+@cache
+def styles() -> str:
+    """Return the rules of labels and ledger, for a notebook; a page has them from its head."""
+    if in_static_book():
+        return ""
+    rules = STYLED.findall(STYLES.read_text(encoding="utf-8"))
+    return f"<style>{' '.join([*rules, LINKED])}</style>"
+
+
 @dataclass(frozen=True)
 class Html:
     """A piece of HTML that a notebook displays."""
@@ -322,7 +341,7 @@ class Html:
     markup: str
 
     def _repr_html_(self) -> str:
-        return self.markup
+        return styles() + self.markup
 
 
 def show_verdicts(chapter: int | None = None, *, where: tuple[str, ...] = ()) -> Html:

@@ -1,10 +1,20 @@
 """Addresses of the ledger: of a row, and of the rows that a filter leaves."""
 
+import os
 from urllib.parse import urlencode
 
+from book.companion.markdown import in_static_book
+
+BOOK = "SOFTGRIP_BOOK_ADDRESS"
+"""Variable with the address of the built book, for notebooks: they lie elsewhere."""
 PAGE = "ledger.html"
 NONE = "none"
 """In an address, the basis of a number that has none."""
+
+
+def in_book(page: str) -> str:
+    """Return the address of a page of the book."""
+    return page if in_static_book() else os.environ.get(BOOK, "") + page
 
 
 def row_address(claim: str) -> str:
@@ -13,7 +23,7 @@ def row_address(claim: str) -> str:
     >>> row_address("3.4-plateau")
     'ledger.html#claim-3.4-plateau'
     """
-    return f"{PAGE}#claim-{claim}"
+    return f"{in_book(PAGE)}#claim-{claim}"
 
 
 def address(**fields: object) -> str:
@@ -22,4 +32,4 @@ def address(**fields: object) -> str:
     >>> address(place="Table 5.2", outcome="close")
     'ledger.html#place=Table+5.2&outcome=close'
     """
-    return f"{PAGE}#{urlencode({name: str(value) for name, value in fields.items()})}"
+    return f"{in_book(PAGE)}#{urlencode({name: str(value) for name, value in fields.items()})}"

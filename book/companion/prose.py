@@ -10,6 +10,7 @@ from functools import cache
 from importlib import import_module
 
 from book.companion.claims import printed_text
+from book.companion.markdown import in_static_book
 from book.companion.verdict import CLOSE
 from softgrip.errors import UnknownNameError
 
@@ -46,7 +47,9 @@ def word(page: int | str, name: str) -> str:
 
 
 def tell(page: int | str) -> None:
-    """Make the computed numbers of a page known to it."""
+    """Make the computed numbers of a page known to it; a notebook has them in its text."""
+    if not in_static_book():
+        return
     from myst_nb import glue  # brings Sphinx, which captions do not need
 
     for name in words(page):

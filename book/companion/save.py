@@ -114,6 +114,11 @@ def svg(figure: Figure) -> bytes:
     return PLACES.sub(_rounded, file.getvalue())
 
 
+def table_text(table: pd.DataFrame) -> str:
+    """Return numbers as CSV."""
+    return str(table.to_csv(index=False, float_format="%.8g", lineterminator="\n"))
+
+
 def save(exhibit: Exhibit, folder: Path) -> Made:
     """Make an exhibit and write it: figures as SVG and CSV, tables as CSV, drawings as SVG."""
     made = make(exhibit)
@@ -125,5 +130,5 @@ def save(exhibit: Exhibit, folder: Path) -> Made:
         if exhibit.drawing:
             return made
         table = numbers(made.shown)
-    table.to_csv(path.with_suffix(".csv"), index=False, float_format="%.8g", lineterminator="\n")
+    path.with_suffix(".csv").write_text(table_text(table), encoding="utf-8", newline="\n")
     return made

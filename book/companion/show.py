@@ -16,11 +16,11 @@ from typing import Any
 
 import pandas as pd
 
-from book.companion.chips import chip
+from book.companion.chips import chip, styles
 from book.companion.exhibit import Exhibit, exhibit, with_logs
-from book.companion.ledger_address import address
+from book.companion.ledger_address import address, in_book
 from book.companion.markdown import in_static_book, markdown_table
-from book.companion.save import Made, make, save, svg
+from book.companion.save import Made, make, numbers, save, svg, table_text
 from book.companion.verdict import Outcome, ledger
 
 FOLDER = Path("_build/figures")
@@ -133,14 +133,28 @@ class Shown:
 
     def _html(self) -> str:
         item = self.exhibit
-        strip = " · ".join(filter(None, [self.verdicts, *self._facts()]))
+        strip = " · ".join(filter(None, [self.verdicts, *self._facts(), *self._links()]))
         if item.kind == "table":
             body = _html_table(self.made.shown)
         else:
             body = image(svg(self.made.shown), "svg+xml", item.alt)
         words = EMPHASIS.sub(r"<em>\1</em>", html.escape(ROLE.sub(r"\1", item.caption)))
         title = f"<b>{item.title}</b>" if self.numbered else f"As {item.title}:"
-        return f"{body}<p>{title} {words}</p><p><small>{strip}</small></p>"
+        place = f' id="{item.label}"' if self.numbered else ""
+        shown = f"{body}<p>{title} {words}</p><p><small>{strip}</small></p>"
+        return f"{styles()}<div{place}>{shown}</div>"
+
+    def _links(self) -> list[str]:
+        """Return, for a notebook, links to what draws the exhibit and to its numbers."""
+        item = self.exhibit
+        page = in_book(f"api/_modules/{item.make.__module__.replace('.', '/')}.html")
+        links = [f'<a href="{page}#{item.make.__name__}">source</a>']
+        if not item.drawing:
+            table = self.made.shown if item.kind == "table" else numbers(self.made.shown)
+            data = b64encode(table_text(table).encode()).decode()
+            to = f'href="data:text/csv;base64,{data}" download="{item.name}.csv"'
+            links.append(f"<a {to}>numbers as CSV</a>")
+        return links
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, str]:
         if self.numbered and in_static_book():
