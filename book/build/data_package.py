@@ -28,7 +28,7 @@ OURS = {
     "title": "BSD 3-Clause License",
 }
 DISSERTATION = {
-    "title": "W.-T. Yang, Development of a Soft Gripper: Sensing, Actuation, and Controls, "
+    "title": "W.-T. Yang, Development of a Soft Gripper - Sensing, Actuation, and Controls, "
     "PhD dissertation, University of California, Berkeley, 2024"
 }
 SOURCES = {
@@ -166,7 +166,9 @@ def description(folder: Path, words: Mapping[str, Any]) -> dict[str, Any]:
                     "schema": _schema(file, table),
                 }
     if missing := [name for name in files if name not in resources]:
-        raise DataFileError(folder, expected=f"files that {WORDS.name} describes", got=missing)
+        raise DataFileError(
+            folder, expected=f"files that {WORDS.name} describes", got=", ".join(missing)
+        )
     return {
         "profile": "data-package",
         "name": "softgrip-data",

@@ -42,7 +42,9 @@ def roles(env: Any, page: str) -> Roles:
 
     def numbered(words: str, label: str) -> str:
         at = ".".join(map(str, number(label) or (label,)))
-        return link(words or f"{KINDS[label[:3]]} {at}", std.anonlabels[label][0], label)
+        return link(
+            words or f"{KINDS[label[:3]]} {at}", std.anonlabels.get(label, (page,))[0], label
+        )
 
     def equation(_: str, label: str) -> str:
         at = ".".join(map(str, number(label) or (label,)))
@@ -99,12 +101,14 @@ def notebook(source: Path, known: Roles) -> NotebookNode:
         source: The page.
         known: What sets its roles.
     """
-    made = jupytext.reads(with_boxes(source.read_text(encoding="utf-8")), fmt="md:myst")
+    made: NotebookNode = jupytext.reads(
+        with_boxes(source.read_text(encoding="utf-8")), fmt="md:myst"
+    )
     words = (
         f"*This is a copy of [a page of the book]({BOOK}{source.stem}.html), to change as you "
         "like. Run all cells first. Numbers within sentences are those of the built book.*"
     )
-    made.cells.insert(0, new_markdown_cell(words))
+    made.cells.insert(0, new_markdown_cell(words))  # type: ignore[no-untyped-call]
     for count, cell in enumerate(made.cells):
         cell.id = f"cell-{count}"  # else another one in each build
         if cell.cell_type == "markdown":
