@@ -52,9 +52,9 @@ lint: $(TESTS)  ## check style, types and the direction of imports
 
 # Copies, in which what the built book knows is text: the pages themselves are not touched. Their
 # links lead to the built book, which the same server has.
-lab: book  ## open the pages as notebooks in JupyterLab, as copies in book/_build/lab
+lab: book  ## open the pages as notebooks in JupyterLab, as copies in lab/
 	@$(BIN)/python -m book.build.lab
-	@SOFTGRIP_BOOK_ADDRESS=/static/ $(BIN)/jupyter lab --notebook-dir=book/_build/lab \
+	@SOFTGRIP_BOOK_ADDRESS=/static/ $(BIN)/jupyter lab --notebook-dir=lab \
 	  --LabApp.default_url=/lab/tree/index.ipynb \
 	  --ServerApp.extra_static_paths="['$(CURDIR)/book/_build/html']"
 

@@ -46,7 +46,9 @@ def lay(notebooks: Path, folder: Path, address: str) -> list[str]:
 
 
 if __name__ == "__main__":
-    build = Path(__file__).parents[1] / "_build"
-    old = lay(build / "html" / "_sources", build / "lab", os.environ.get(VARIABLE, "/static/"))
+    root = Path(__file__).parents[2]
+    sources = root / "book" / "_build" / "html" / "_sources"
+    # Not in _build: that is thrown away, and these are a reader's.
+    old = lay(sources, root / "lab", os.environ.get(VARIABLE, "/static/"))
     for name in old:
         print(f"{name}: yours is kept, of a former edition. Delete it for that of today.")

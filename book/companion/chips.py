@@ -321,7 +321,7 @@ def assumptions_table(entries: list[Entry]) -> str:
 
 STYLES = Path(__file__).parents[1] / "_static" / "softgrip.css"
 LINKED = "a.verdict { color: #16181d !important; text-decoration: none; }"
-"""A notebook has a colour of its own for links, which on a label cannot be read in its dark scheme."""
+"""A notebook has a colour of its own for links, which a label of its dark scheme would hide."""
 STYLED = re.compile(r"^(?:\.verdict|table\.ledger)[^{}]*\{[^{}]*\}$", re.M)
 
 
