@@ -14,8 +14,6 @@ TAG = re.compile("<[^>]*>")
 MENDED = tuple(
     (re.compile(found), put)
     for found, put in (
-        # A name that leaves out what the button shows cannot be spoken to it.
-        (r'(<button class="btn search-button-field[^>]*) aria-label="[^"]*"', r"\1"),
         ('<summary aria-label="Toggle hidden content">', "<summary>"),
         # Three icons, of which one is seen, are not the name of the button that they are in.
         (r'(<i class="theme-switch [^>]*) title="[^"]*"', r"\1"),

@@ -40,7 +40,9 @@ class Api(SphinxDirective):
         for name in modules(package):
             self.env.note_dependency(str(ROOT.joinpath(*name.split(".")).with_suffix(".py")))
             found.append(f"- :py:mod:`{name}`: {prose(first_line(name))}")
-        return parsed(self, found)
+        made = parsed(self, found)
+        made[-1]["classes"].append("modules")
+        return made
 
 
 class Links:

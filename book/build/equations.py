@@ -69,7 +69,7 @@ def mentioned(text: str) -> frozenset[str]:
 def owners() -> tuple[Place, ...]:
     """Return what owns equations."""
     found = []
-    for module, name, doc in _documented("softgrip"):
+    for module, name, doc in documented("softgrip"):
         words = doc.partition("\n")[0]
         if numbers := mentioned(words):
             found.append(Place(module, name, words, numbers))
@@ -80,14 +80,14 @@ def owners() -> tuple[Place, ...]:
 def naming_tests() -> tuple[Place, ...]:
     """Return the tests that name equations."""
     found = []
-    for module, name, doc in _documented("tests"):
+    for module, name, doc in documented("tests"):
         named = {f"{c}.{k}" for c, k in re.findall(r"eq_(\d)_(\d+)", name)}
         if name.startswith("test_") and (numbers := mentioned(doc) | named):
             found.append(Place(module, name, doc.partition("\n")[0], numbers))
     return tuple(found)
 
 
-def _documented(folder: str) -> Iterator[tuple[str, str, str]]:
+def documented(folder: str) -> Iterator[tuple[str, str, str]]:
     """Yield module, name and docstring of the public functions, methods and classes of a folder."""
     for file in sorted((ROOT / folder).rglob("*.py")):
         module = ".".join(file.relative_to(ROOT).with_suffix("").parts)

@@ -19,6 +19,7 @@ from book.build import (
     light,
     notebooks,
     numbering,
+    search,
     tracing,
     typed_numbers,
     vendor,
@@ -140,6 +141,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     notebooks.setup(app)
     equations.setup(app)
     numbering.setup(app)
+    search.setup(app)
     typed_numbers.setup(app)
     app.connect("config-inited", use_local_scripts)
     app.connect("builder-inited", prepare_kernels)

@@ -1,8 +1,10 @@
 """What a page loads: no icon, index or script that it has no use for, no picture before its turn.
 
-The theme has each page load all 2,000 icons of its font as a script (1.5 MB), and the index of the
-search, which only the page of the search reads. Jupyter Book has each load Thebe, which would run
-cells on a server elsewhere, and that twice, which the browser takes for an error.
+The theme has each page load all 2,000 icons of its font as a script (1.5 MB), and Sphinx's search
+with its index, in whose place the book has a page of its own (`book.build.search`): neither is
+made, and the theme's dialog for it is left out of the template of pages. Jupyter Book has each load
+Thebe, which would run cells on a server elsewhere, and that twice, which the browser takes for an
+error.
 """
 
 import re
@@ -15,6 +17,8 @@ ICONS = "_static/scripts/fontawesome.js"
 ICON = re.compile(r'"?([\w-]+)"?:\[\d+,\d+,\[[^\]]*\],"[0-9a-f]*",(?:"[^"]*"|\[[^\]]*\])\],?')
 """An icon in the theme's script: width, height, other names, code and outline, by its name."""
 USED = re.compile(r"\bfa-([a-z0-9-]+)")
+SEARCH = ("searchindex.js", "_static/searchtools.js", "_static/language_data.js")
+"""Of Sphinx's search: what it lays even if it makes no index, and an index of a former build."""
 UNUSED = re.compile(
     r'\s*<script(?: src="[^"]*(?:searchtools|language_data|searchindex)\.js">'
     r'| async="async" src="[^"]*sphinx-thebe\.js[^"]*">|>const THEBE_JS_URL[^<]*)</script>'
@@ -61,7 +65,20 @@ def drop_icons(app: Sphinx, error: Exception | None) -> None:
     script.write_text(with_icons(script.read_text(encoding="utf-8"), names), encoding="utf-8")
 
 
+def leave_search(app: Sphinx) -> None:
+    """Have Sphinx make no index, and no page that reads it."""
+    app.builder.search = False  # type: ignore[attr-defined]
+
+
+def drop_search(app: Sphinx, _error: Exception | None) -> None:
+    """Remove what no page loads."""
+    for name in SEARCH:
+        Path(app.outdir, name).unlink(missing_ok=True)
+
+
 def setup(app: Sphinx) -> None:
-    """Connect both to the stages of a build."""
+    """Connect these to the stages of a build."""
+    app.connect("builder-inited", leave_search)
     app.connect("html-page-context", lighten)
     app.connect("build-finished", drop_icons)
+    app.connect("build-finished", drop_search)

@@ -26,7 +26,7 @@ FOLDER = "api"
 INVENTORY = "objects.inv"
 STAMP = "sources.sha256"
 BOOK = ROOT / "book"
-STATIC = [BOOK / "_static" / name for name in ("softgrip.css", "scrolling.js")]
+STATIC = [BOOK / "_static" / name for name in ("softgrip.css", "scrolling.js", "search_key.js")]
 TEMPLATE = BOOK / "_templates" / "layout.html"
 """What its pages share with those of the book."""
 CODE = ("softgrip", "book", "tests")
@@ -57,7 +57,7 @@ SETTINGS: dict[str, Any] = {
     "html_context": {"default_mode": "auto"},  # else the theme's script complains of none
     "html_static_path": [str(file) for file in STATIC],
     "html_css_files": [STATIC[0].name],
-    "html_js_files": [STATIC[1].name],
+    "html_js_files": [file.name for file in STATIC[1:]],
     "templates_path": [str(TEMPLATE.parent)],
     "html_copy_source": False,
     "html_sidebars": {"_modules/**": []},  # a tree of all pages for each of hundreds takes as long
@@ -118,7 +118,8 @@ def sources() -> str:
     """Return a digest of what the reference is made of."""
     files = sorted(file for top in CODE for file in (ROOT / top).rglob("*.py"))
     files = [file for file in files if not MADE & {*file.relative_to(ROOT).parts}]
-    lines = [f"{file.relative_to(ROOT)} {digest(file)}" for file in [*files, *STATIC, TEMPLATE]]
+    shared = [*STATIC, *sorted(TEMPLATE.parent.glob("*.html"))]
+    lines = [f"{file.relative_to(ROOT)} {digest(file)}" for file in [*files, *shared]]
     lines += [sys.version, digest(ROOT / "environment.lock")]
     return hashlib.sha256("\n".join(lines).encode()).hexdigest()
 
@@ -201,14 +202,15 @@ def home(_app: Sphinx, module: str | None, _name: str) -> str | None:
 def lead_back(
     _app: Sphinx, _page: str, _template: str, context: dict[str, Any], _tree: Any
 ) -> None:
-    """Lead from each page to the book."""
+    """Lead from each page to the book, and to its search."""
     context["theme_logo"] = {"text": "softgrip", "link": context["pathto"]("../index.html", 1)}
+    context["search_address"] = context["pathto"]("../search.html", 1)
 
 
 def remove_former_modules(app: Sphinx, _error: Exception | None) -> None:
     """Remove pages of what is no more: a build adds, but never takes away."""
     for page in Path(app.outdir).glob("*.html"):
-        if page.stem not in {*app.env.found_docs, "genindex", "py-modindex", "search"}:
+        if page.stem not in {*app.env.found_docs, "genindex", "py-modindex"}:
             page.unlink()
     pages = Path(app.outdir) / "_modules"
     for page in [page for top in CODE for page in (pages / top).rglob("*.html")]:

@@ -1,8 +1,8 @@
 """The book's scripts, fetched at build time so that its pages need no network.
 
-KaTeX, which sets equations, and what draws figures with sliders come as npm packages, at pinned
-versions whose archives are checked against a known digest. They are laid under ``_vendor/`` and
-never committed.
+KaTeX, which sets equations, what draws figures with sliders and what searches come as npm packages,
+at pinned versions whose archives are checked against a known digest. They are laid under
+``_vendor/`` and never committed.
 """
 
 import base64
@@ -53,6 +53,12 @@ PACKAGES = (
             ("dist/fonts", "_static/katex/fonts"),
         ),
     ),
+    Package(
+        "minisearch",
+        "7.2.0",
+        "sha512-dqT2XBYUOZOiC5t2HRnwADjhNS2cecp9u+TJRiJ1Qp/f5qjkeT5APcGPjHw+bz89Ms8Jp+cG4AlE+QZ/QnDglg==",
+        (("dist/umd/index.js", "_static/minisearch.js"),),
+    ),
 )
 
 PUBLIC = "https://cdn.jsdelivr.net/npm"
@@ -60,6 +66,7 @@ PUBLIC = "https://cdn.jsdelivr.net/npm"
 PLOTS = PACKAGES[:2]
 """What draws figures with sliders, in the order in which it is loaded."""
 EQUATIONS = PACKAGES[2]
+SEARCH = PACKAGES[3]
 STAMP = "packages.json"
 FONTS = {".woff2"}
 

@@ -16,7 +16,7 @@ AXE = Package(
     "sha512-FHfa+lmNjQZfJz1q8wKqIDwC6DExcHt/pkjNQb09a3NPjCKg2rhu5qb2S4r76ASyFNNtuFooJpZe37OgudVGtQ==",
     (("axe.min.js", "axe.min.js"),),
 )
-TEMPLATES = ("index", "py-modindex", "search", "softgrip.dynamics")
+TEMPLATES = ("index", "py-modindex", "softgrip.dynamics")
 """Pages of the reference, one of each template that the book itself has not."""
 
 # Nothing but colours hangs on the scheme: half of the time is saved for it.
