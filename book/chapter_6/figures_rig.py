@@ -139,8 +139,8 @@ def figure_6_5(logs: tuple[Path | str, ...] = ()) -> Figure:
         weights.plot(*run_deviation(runs, 0), ".", color=colour, ms=4, label=label)
         look = {"color": colour, "ls": dash, "lw": 1.6, "histtype": "step"}
         errors.hist(found, bins, label=f"{label} ({found.std(ddof=1):.2f} deg)", **look)
-    words = "printed as excited"
-    weights.axvspan(*PRINTED_BAND["6.5"], fill=False, ec=PRINTED, ls=":", label=words)
+    excited = "printed as excited"
+    weights.axvspan(*PRINTED_BAND["6.5"], fill=False, ec=PRINTED, ls=":", label=excited)
     steps.set(title="(a) steps of the left finger", ylabel="angle (deg)")
     steps.set_xlabel("time since the push ended (s)")
     _bound(weights)
