@@ -51,8 +51,8 @@ def roles(env: Any, page: str) -> Roles:
         return link(f"Eq. ({at})", env.get_domain("math").equations[label][0], label)
 
     def section(words: str, label: str) -> str:
-        to, anchor, title = std.labels[label]
-        return link(words or title, to, label if to == page else anchor)
+        to, anchor = std.anonlabels[label]  # of a box too, which has no title to be called by
+        return link(words or std.labels[label][2], to, label if to == page else anchor)
 
     def term(words: str, name: str) -> str:
         return link(words or name, *terms[name.lower()])

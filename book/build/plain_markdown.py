@@ -12,7 +12,7 @@ from softgrip.errors import InvalidInputError
 
 ROLE = re.compile(r"(?<![}`])`[^`\n]+`|\{([a-z][a-z:]*)\}`([^`]+)`")
 """A role, or code, in which there is none."""
-TITLED = re.compile(r"(?s)(.+?)\s*<(\S+)>")
+TITLED = re.compile(r"(.+?)\s*<([^<>]+)>")
 """Of a role: its own words, and what they lead to."""
 LABELLED = re.compile(r"(?ms)^\$\$\n(.*?)\n\$\$ \(([\w-]+)\)$")
 TARGET = re.compile(r"(?m)^\(([\w-]+)\)=$")
@@ -37,7 +37,7 @@ def with_roles(text: str, roles: Roles) -> str:
     Raises:
         InvalidInputError: If there is a role that none of `roles` sets.
 
-    >>> with_roles("see {doc}`there <page>`", {"doc": lambda words, to: f"[{words}]({to}.html)"})
+    >>> with_roles("see {doc}`there\\n<page>`", {"doc": lambda words, to: f"[{words}]({to}.html)"})
     'see [there](page.html)'
     """
 
@@ -47,6 +47,7 @@ def with_roles(text: str, roles: Roles) -> str:
             return found[0]
         if name not in roles:
             raise InvalidInputError("role of a page", expected=f"one of {[*roles]}", got=found[0])
+        text = " ".join(text.split())  # a role may be parted by a line's end
         titled = TITLED.fullmatch(text)
         return roles[name](*(titled.groups() if titled else ("", text)))
 
