@@ -32,12 +32,12 @@ Roles = Mapping[str, Callable[[str, str], str]]
 
 
 def with_roles(text: str, roles: Roles) -> str:
-    """Return a text with its roles set.
+    r"""Return a text with its roles set.
 
     Raises:
         InvalidInputError: If there is a role that none of `roles` sets.
 
-    >>> with_roles("see {doc}`there\\n<page>`", {"doc": lambda words, to: f"[{words}]({to}.html)"})
+    >>> with_roles("see {doc}`there\n<page>`", {"doc": lambda words, to: f"[{words}]({to}.html)"})
     'see [there](page.html)'
     """
 
