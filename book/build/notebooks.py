@@ -48,7 +48,8 @@ def roles(env: Any, page: str) -> Roles:
 
     def equation(_: str, label: str) -> str:
         at = ".".join(map(str, number(label) or (label,)))
-        return link(f"Eq. ({at})", env.get_domain("math").equations[label][0], label)
+        to = env.get_domain("math").equations[label][0]
+        return link(f"Eq. ({at})", to, label if to == page else f"equation-{label}")
 
     def section(words: str, label: str) -> str:
         to, anchor = std.anonlabels[label]  # of a box too, which has no title to be called by
