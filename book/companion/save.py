@@ -71,6 +71,8 @@ def _points(axes: Any) -> list[tuple[str, Any, Any]]:
 def numbers(figure: Figure) -> pd.DataFrame:
     """Read the numbers of a figure back from what is drawn, so that the two cannot differ.
 
+    Names are in one line, however they are set in the picture.
+
     Returns:
         DataFrame: One row a point: panel, series, x, y; the axes' labels, with units, are in
             ``x_is`` and ``y_is``.
@@ -94,7 +96,11 @@ def numbers(figure: Figure) -> pd.DataFrame:
                     }
                 )
             )
-    return pd.concat(rows, ignore_index=True) if rows else pd.DataFrame()
+    if not rows:
+        return pd.DataFrame()
+    found = pd.concat(rows, ignore_index=True)
+    names = ["panel", "series", "x_is", "y_is"]
+    return found.assign(**{name: found[name].str.split().str.join(" ") for name in names})
 
 
 PLACES = re.compile(rb'(?<= [dxy]=")[^"]*')

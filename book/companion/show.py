@@ -22,6 +22,7 @@ from book.companion.ledger_address import address, in_book
 from book.companion.markdown import in_static_book, markdown_table
 from book.companion.save import Made, make, numbers, save, svg, table_text
 from book.companion.verdict import Outcome, ledger
+from softgrip.provenance import Provenance
 
 FOLDER = Path("_build/figures")
 """Where the book's build, which runs pages in the folder of the book, puts their pictures."""
@@ -96,12 +97,17 @@ class Shown:
             words = f"<summary>{len(files)} files ({kinds})</summary>"
             files = [f"<details>{words}{', '.join(files)}</details>"]
         files += [item.sources] if item.sources else []
+        # What is ours and stands on prints alone was not printed.
+        ours = not item.in_dissertation and item.provenance is Provenance.PRINTED
+        shown, inputs = ("computed here from", " inputs") if ours else ("shown:", "")
+        seconds = round(self.made.seconds, 1)
+        took = f"in {seconds} s " if seconds else ""
         return [
             f"{origin}",
-            f"shown: <b>{item.provenance}</b>",
+            f"{shown} <b>{item.provenance}</b>{inputs}",
             *([f"data: {', '.join(files)}"] if files else []),
             *(html.escape(words) for words in item.repairs),
-            f"made in {self.made.seconds:.1f} s by <code>{item.command}</code>",
+            f"made {took}by <code>{item.command}</code>",
         ]
 
     def _myst(self) -> str:

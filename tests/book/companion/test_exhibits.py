@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from book.companion.exhibit import BOOK, chapters, exhibit, exhibits
 from book.companion.save import make, numbers, save
+from book.companion.show import show
 from book.companion.style import style
 from softgrip.errors import UnknownNameError
 from softgrip.provenance import data_folder
@@ -103,6 +104,28 @@ def test_numbers_are_those_drawn():
     rows = {tuple(row) for row in frame[["series", "x", "y"]].itertuples(index=False)}
     assert {("a line", 0, 2), ("a line", 1, 3), ("points", 4, 5), ("bars", 6, 7)} <= rows
     assert set(frame["x_is"]) == {"x (m)"}
+
+
+def test_names_of_numbers_stand_in_one_line():
+    with style():
+        figure = Figure()
+        axes = figure.subplots()
+        axes.plot([0, 1], [2, 3], label="two\nlines")
+        axes.set_title("(a)\npanel", loc="left")
+    frame = numbers(figure)
+    assert (set(frame["panel"]), set(frame["series"])) == ({"(a) panel"}, {"two lines"})
+
+
+@pytest.mark.parametrize(
+    ("title", "words"),
+    [
+        ("Table 6.A", "computed here from <b>printed</b> inputs"),
+        ("Table 3.4", "shown: <b>printed</b>"),
+        ("Table 2.G", "shown: <b>simulated</b>"),
+    ],
+)
+def test_a_strip_does_not_call_printed_what_was_computed_here(title, words):
+    assert words in show(title)._repr_mimebundle_()["text/html"]
 
 
 def test_unknown_exhibit_lists_those_that_are():

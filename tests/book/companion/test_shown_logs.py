@@ -28,7 +28,7 @@ def test_other_log_is_drawn_and_named(mine):
     made = make(item)
     assert made.data[0].path == mine
     drawn = numbers(made.shown)
-    assert set(drawn["panel"].str.split("\n").str[0]) == {"mine"}
+    assert set(drawn["panel"].str.split().str[0]) == {"mine"}
     assert "logged" in set(drawn["series"])
     shown = show("Figure 4.4", logs=[mine])._repr_mimebundle_()["text/html"]
     assert "mine.csv (logged" in shown
