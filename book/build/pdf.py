@@ -124,7 +124,7 @@ def pages() -> list[tuple[str, int]]:
     """Return the pages of the book in their order, each with its depth; the reference stays out.
 
     >>> pages()[:3]
-    [('index', 0), ('chapter-2', 0), ('own-pad', 1)]
+    [('index', 0), ('chapter-2', 0), ('chapter-2-kind', 1)]
     """
     site = parse_toc_yaml(ROOT / "book" / "_toc.yml")
 

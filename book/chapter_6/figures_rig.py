@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from book.chapter_6 import filters
 from book.chapter_6 import speed as gripper_speed
-from book.chapter_6.comparison import CRITERIA, ENTRIES, RIGS, judged, robustness_margin
+from book.chapter_6.comparison import ENTRIES, RIGS, criteria, judged, robustness_margin
 from book.chapter_6.logs import names_of
 from book.chapter_6.results import (
     bounds,
@@ -243,12 +243,12 @@ def table_6_j() -> pd.DataFrame:
     for name in FILTERS:
         for rig in RIGS:
             found = judged(name, rig)
-            times = {key: float(np.median(found.settling[key])) for key in CRITERIA}
+            times = {key: middle_and_ends(found.settling[key]).split()[0] for key in criteria()}
             rows.append(
                 {
                     "filter": filters.label(name),
                     "gripper": rig,
-                    **{k: f"{t:.1f}" if np.isfinite(t) else "never" for k, t in times.items()},
+                    **times,
                     "overshoot (%)": f"{100 * np.median(found.overshoot):.0f}",
                 }
             )
@@ -260,7 +260,7 @@ def table_6_k() -> pd.DataFrame:
     """Tabulate the spread over the speed."""
     return pd.DataFrame(
         {
-            "speed (rev/s)": f"{spread.speed:g}",
+            "speed (rev/s)": f"{spread.speed:.2g}",
             "true": f"{spread.true.std(ddof=1):.2f}",
             "measured": f"{spread.measured.std(ddof=1):.2f}",
             "weight (%)": _percent(largest_weight(spread.speed * REV)),

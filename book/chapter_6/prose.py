@@ -151,6 +151,8 @@ WORDS = {
     "first_command": lambda: f"{shown.first_commands()[0]:.1f}",
     "second_command": lambda: f"{-shown.first_commands()[1]:.1f}",
     "third_command": lambda: f"{-shown.first_commands()[2]:.1f}",
+    "later_commands": lambda: f"{shown.all_commands() - shown.first_commands().sum():.1f}",
+    "all_commands": lambda: f"{shown.all_commands():.1f}",
     "short_rad": lambda: f"{shown.cut_end(SPEED_LIMIT):.2f}",
     "short_rev": lambda: f"{shown.cut_end(SPEED_LIMIT / REV):.2f}",
     # Tasks.

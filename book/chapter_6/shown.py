@@ -117,6 +117,11 @@ def first_commands() -> Floats:
     return run_printed().commands[:3]
 
 
+def all_commands() -> float:
+    """Return the sum of the commands of that step, unit of U: what moves the fingers in the end."""
+    return float(run_printed(duration=8.0).commands.sum())
+
+
 def cut_end(limit: float) -> float:
     """Return where the fingers end over their targets if the commands of that step are cut.
 

@@ -16,7 +16,7 @@ ABSENT = {
     "The text gives none of their shapes beyond what {numref}`fig-3-1` has.",
     "6.2 (a)": "it shows a search in a landscape, whose shape is not printed; {numref}`tab-3-a` "
     "and {numref}`fig-3-b` are that search, done here.",
-    "6.2 (b)": "it shows how a finger is cast, in the moulds of Figure 3.7.",
+    "6.2 (b)": "it shows how a finger is cast, in moulds whose shapes are not printed.",
     "6.2 (c)": "it shows how the pump looks; {numref}`fig-4-1` has its parts.",
 }
 """Why a figure, or a panel of one, is not drawn: its content is not in the text."""

@@ -271,3 +271,32 @@ def test_stiff_disc_rattles():
     """It leaves the left finger more often than a soft one."""
     left = [(np.diff(grasp(k, "fast push").forces[0] > 0) != 0).sum() for k in STIFFNESS.values()]
     assert left[0] < left[-1]
+
+
+def test_printed_nearest_angles_of_spa_1_and_2_come_out_apart_and_all_by_one_cut():
+    near = np.linspace(-0.005, 0.005, 201)  # the rounding of the printed stiffness
+    stiff, soft = np.meshgrid(3.61 + near, 3.06 + near)
+    gain = 1 / np.stack([stiff, soft])
+    q = gain / np.linalg.norm(gain, axis=0)
+    there = {
+        (target, finger): np.abs(q[finger] * q.sum(axis=0) * target - float(text)) <= 0.0005
+        for target, texts in ((1 / 3, ("0.303", "0.357")), (1 / 4, ("0.227", "0.268")))
+        for finger, text in enumerate(texts)
+    }
+    alone = [which.any() for which in there.values()]
+    assert alone == [True, False, True, True]
+    first, _, third, fourth = there.values()
+    assert (first & third).any()
+    assert not ((first | third) & fourth).any()
+    cut = (
+        np.floor(1000 * np.linalg.norm([1 / 3.61, 1 / 3.06]) ** -1 / np.array([3.61, 3.06])) / 1000
+    )
+    found = np.outer([0.333, 0.25], cut * cut.sum()).round(3)
+    assert found.ravel().tolist() == [0.303, 0.357, 0.227, 0.268]
+
+
+def test_the_commands_add_up_to_what_moves_the_fingers():
+    # At rest a finger stands at gain / stiffness times the sum of the commands, each a period long.
+    finger = PRINTED.fingers[0]
+    moved = shown.all_commands() * PERIOD * finger.gain / finger.stiffness
+    assert moved == pytest.approx(shown.equal_targets()[0], rel=1e-3)  # after eight seconds
