@@ -70,13 +70,18 @@ def held_modulus(test: TensileTest) -> tuple[float, str]:
     if test.name in table_5_1():
         return table_5_1()[test.name].young_modulus, "Table 5.1"
     try:
-        return tensile.hundred_percent_modulus(test), "the stress of the test at strain 1"
+        found = tensile.hundred_percent_modulus(test)
     except InvalidInputError:
         raise InvalidInputError(
             "young_modulus",
             expected=f"one in Pa, as {test.name!r} is not in Table 5.1, or a test past strain 1",
             got=f"none, strains {test.strain[0]:g} to {test.strain[-1]:g}",
         ) from None
+    if found < 1.0:  # Pa: no gel is as soft, and over it a stress has no size
+        raise InvalidInputError(
+            "stress", expected="1 Pa or more at strain 1, which is held as modulus", got=found
+        )
+    return found, "the stress of the test at strain 1"
 
 
 @takes_numbers

@@ -85,3 +85,11 @@ def test_bootstrap_interval_holds_the_estimate_and_repeats():
     assert (low, high) == bootstrap_interval(test, Fitting(), resamples=50)
     with pytest.raises(InvalidInputError, match="confidence"):
         bootstrap_interval(test, Fitting(), confidence=1.2)
+
+
+def test_a_stress_of_nothing_at_strain_1_is_no_modulus():
+    strain = np.linspace(0, 3, 13)
+    stress = np.where(strain == 1, 1e-294, 1e5 * strain)
+    test = tensile.TensileTest("mine", strain, stress, np.log1p(strain), stress * (1 + strain))
+    with pytest.raises(InvalidInputError, match="1 Pa or more at strain 1"):
+        fit(test, Fitting("engineering"))
