@@ -15,12 +15,12 @@ import shutil
 import subprocess
 import sys
 import tarfile
-from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 import softgrip
 from book.build.__main__ import ROOT, VARIABLES
+from book.build.edition import Edition, edition
 from softgrip.errors import SoftgripError
 
 NAME = f"softgrip-{softgrip.__version__}"
@@ -29,28 +29,10 @@ NOT_KEPT = ("book/_build", "dist", "__pycache__", ".venv")
 """What a build leaves in the archive's tree and no archive holds."""
 
 
-def _git(root: Path, *command: str) -> str:
-    return subprocess.run(
-        ["git", *command], cwd=root, check=True, capture_output=True, text=True
-    ).stdout
-
-
-def edition(root: Path) -> dict[str, Any]:
-    """Return which sources these are: version, commit, its date, and whether files differ."""
-    commit, date = _git(root, "log", "-1", "--format=%H %cI").split()
-    changed = _git(root, "status", "--porcelain").splitlines()
-    return {
-        "name": "softgrip",
-        "version": softgrip.__version__,
-        "commit": commit,
-        "date": date,
-        "differs_from_commit": [line[3:] for line in changed],
-    }
-
-
 def lay_sources(root: Path, tree: Path) -> None:
     """Copy the tracked files of a checkout; what was tracked before and is no more goes."""
-    names = [name for name in _git(root, "ls-files", "-z").split("\0") if (root / name).is_file()]
+    tracked = subprocess.check_output(["git", "ls-files", "-z"], cwd=root, text=True).split("\0")
+    names = [name for name in tracked if (root / name).is_file()]
     old = json.loads(_list(tree).read_text()) if _list(tree).is_file() else []
     for name in set(old) - set(names):
         (tree / name).unlink(missing_ok=True)
@@ -116,7 +98,7 @@ def files(tree: Path) -> list[str]:
     )
 
 
-def describe(tree: Path, told: Mapping[str, Any]) -> None:
+def describe(tree: Path, told: Edition) -> None:
     """Write what the archive is, and the digests of all its files for ``sha256sum -c``."""
     wheels = (tree / "wheels").is_dir()
     made_with = {
@@ -132,7 +114,8 @@ def describe(tree: Path, told: Mapping[str, Any]) -> None:
         "book/_vendor/": "scripts of the pages, from npm",
         "make book": "builds book/_build/html from this tree; with wheels, without a network",
     }
-    text = json.dumps({**told, "made_with": made_with, "holds": holds}, indent=1) + "\n"
+    manifest = {"name": "softgrip", **asdict(told), "made_with": made_with, "holds": holds}
+    text = json.dumps(manifest, indent=1) + "\n"
     (tree / MANIFEST).write_text(text, encoding="utf-8")
     sums = [
         f"{hashlib.sha256((tree / name).read_bytes()).hexdigest()}  {name}\n"
@@ -182,7 +165,7 @@ def main(*, wheels: bool) -> Path:
     describe(tree, told)
     archive = ROOT / "dist" / f"{NAME}-archive.tar.gz"
     pack(tree, archive)
-    for name in told["differs_from_commit"]:
+    for name in told.changed:
         print(f"NOTE: {name} differs from the commit, or is not in it.")
     return archive
 

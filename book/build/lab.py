@@ -9,6 +9,7 @@ import os
 from pathlib import Path
 
 from book.build.notebooks import BOOK
+from book.build.tracing import ROOT
 from book.companion.ledger_address import BOOK as VARIABLE
 
 
@@ -46,9 +47,8 @@ def lay(notebooks: Path, folder: Path, address: str) -> list[str]:
 
 
 if __name__ == "__main__":
-    root = Path(__file__).parents[2]
-    sources = root / "book" / "_build" / "html" / "_sources"
+    sources = ROOT / "book" / "_build" / "html" / "_sources"
     # Not in _build: that is thrown away, and these are a reader's.
-    old = lay(sources, root / "lab", os.environ.get(VARIABLE, "/static/"))
+    old = lay(sources, ROOT / "lab", os.environ.get(VARIABLE, "/static/"))
     for name in old:
         print(f"{name}: yours is kept, of a former edition. Delete it for that of today.")

@@ -14,7 +14,7 @@ from nbformat.v4 import new_markdown_cell
 from sphinx.application import Sphinx
 
 from book.build.lab_form import has_cells
-from book.build.numbering import number
+from book.build.numbering import dotted
 from book.build.plain_markdown import Roles, plain, with_boxes
 from book.companion.claims import printed_text
 from book.companion.ledger_address import row_address
@@ -41,15 +41,15 @@ def roles(env: Any, page: str) -> Roles:
         return f"[{words}]({place}{anchor and f'#{anchor}'})"
 
     def numbered(words: str, label: str) -> str:
-        at = ".".join(map(str, number(label) or (label,)))
         return link(
-            words or f"{KINDS[label[:3]]} {at}", std.anonlabels.get(label, (page,))[0], label
+            words or f"{KINDS[label[:3]]} {dotted(label)}",
+            std.anonlabels.get(label, (page,))[0],
+            label,
         )
 
     def equation(_: str, label: str) -> str:
-        at = ".".join(map(str, number(label) or (label,)))
         to = env.get_domain("math").equations[label][0]
-        return link(f"Eq. ({at})", to, label if to == page else f"equation-{label}")
+        return link(f"Eq. ({dotted(label)})", to, label if to == page else f"equation-{label}")
 
     def section(words: str, label: str) -> str:
         to, anchor = std.anonlabels[label]  # of a box too, which has no title to be called by

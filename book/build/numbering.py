@@ -28,6 +28,15 @@ def number(label: str) -> tuple[int | str, ...] | None:
     return int(chapter), int(item) if item.isdigit() else item.upper()
 
 
+def dotted(label: str) -> str:
+    """Return the number that a label carries as it is printed; another label as it is.
+
+    >>> dotted("eq-5-14"), dotted("tab-5-a"), dotted("somewhere-else")
+    ('5.14', '5.A', 'somewhere-else')
+    """
+    return ".".join(map(str, number(label) or (label,)))
+
+
 def assign(_app: Sphinx, env: Any) -> list[str]:
     """Replace Sphinx's counts by the numbers that the labels carry."""
     labels = {

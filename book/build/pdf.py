@@ -8,26 +8,24 @@ ahead: the document is printed twice, the second time with those of the first in
 
 import html
 import io
-import shutil
-import subprocess
 import sys
 import tomllib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from datetime import date
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
 from sphinx_external_toc.parsing import parse_toc_yaml
 
+from book.build.browser import chromium
+from book.build.edition import edition
 from book.build.reference import FOLDER as REFERENCE
+from book.build.tracing import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 BUILT = ROOT / "book" / "_build"
 PDF = BUILT / "softgrip.pdf"
 STYLE = Path(__file__).with_suffix(".css")
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 WIDTH = 658
 """Width of the text on A4, in pixels of CSS: what `STYLE` leaves between the margins."""
 
@@ -138,29 +136,6 @@ def pages() -> list[tuple[str, int]]:
     return [(first, 0), *(found for found in below(first, 0) if found[0] != REFERENCE)]
 
 
-def edition() -> str:
-    """Return version, commit and date, as far as they are known."""
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-
-    def told(*command: str) -> str:
-        try:
-            return subprocess.check_output(
-                ["git", *command], cwd=ROOT, text=True, stderr=subprocess.DEVNULL
-            ).strip()
-        except (OSError, subprocess.CalledProcessError):  # sources without their history
-            return ""
-
-    commit, day = (
-        told("describe", "--always", "--dirty= with changes"),
-        told("log", "-1", "--format=%cs"),
-    )
-    found = f"Version {project['version']}"
-    if day:
-        spelled = date.fromisoformat(day).strftime("%d %B %Y").lstrip("0")
-        found += f", {spelled}, commit {commit}"
-    return found
-
-
 def _front(words: dict[str, str]) -> str:
     return (
         '<section class="title-page"><p class="title">softgrip</p>'
@@ -258,25 +233,15 @@ def make(folder: Path, pdf: Path, names: Sequence[tuple[str, int]]) -> None:
     Raises:
         SystemExit: Without Chromium.
     """
-    from playwright.sync_api import sync_playwright
-
-    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if browser is None:
-        raise SystemExit(
-            "The PDF is printed by Chromium: install it (Debian: apt-get install chromium)."
-        )
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     words = {
         "description": project["description"],
         "author": project["authors"][0]["name"],
-        "edition": edition(),
+        "edition": str(edition(ROOT)),
     }
     aside = pdf.with_suffix(".html")
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(
-            executable_path=browser, args=["--no-sandbox", "--disable-gpu"]
-        )
-        page = chromium.new_page(
+    with chromium() as browser:
+        page = browser.new_page(
             viewport={"width": WIDTH, "height": 900}, color_scheme="light", offline=True
         )
         page.set_default_timeout(0)  # a busy machine is no fault of a page
@@ -284,7 +249,6 @@ def make(folder: Path, pdf: Path, names: Sequence[tuple[str, int]]) -> None:
         taken = [take(page, folder, *name) for name in names]
         numbers = places(printed(page, joined(taken, words, {}), aside))
         pdf.write_bytes(printed(page, joined(taken, words, numbers), aside))
-        chromium.close()
     aside.unlink()
 
 

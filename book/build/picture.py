@@ -1,7 +1,8 @@
 """``python -m book.build.picture``: the README's picture, taken from the built book."""
 
-import shutil
 from pathlib import Path
+
+from book.build.browser import chromium
 
 BOOK = Path("book")
 PICTURE = BOOK / "images" / "page.png"
@@ -10,14 +11,9 @@ TOP, BOTTOM = "#tab-5-2", "#tab-5-b"
 
 def main() -> None:
     """Take the part of Chapter 5's page between two of its tables."""
-    from playwright.sync_api import sync_playwright
-
     page_file = (BOOK / "_build" / "html" / "chapter-5.html").resolve()
     PICTURE.parent.mkdir(exist_ok=True)
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=shutil.which("chromium"), args=["--no-sandbox", "--disable-gpu"]
-        )
+    with chromium() as browser:
         page = browser.new_page(
             viewport={"width": 1280, "height": 900}, device_scale_factor=1.5, offline=True
         )
@@ -38,7 +34,6 @@ def main() -> None:
                 "height": last["y"] - first["y"],
             },
         )
-        browser.close()
     print(PICTURE)
 
 

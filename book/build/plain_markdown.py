@@ -7,7 +7,7 @@ page is built: it then stands in the notebook as text.
 import re
 from collections.abc import Callable, Mapping
 
-from book.build.numbering import number
+from book.build.numbering import dotted
 from softgrip.errors import InvalidInputError
 
 ROLE = re.compile(r"(?<![}`])`[^`\n]+`|\{([a-z][a-z:]*)\}`([^`]+)`")
@@ -68,8 +68,7 @@ def with_equations(text: str) -> str:
 
     def numbered(found: re.Match[str]) -> str:
         body, label = found.groups()
-        at = ".".join(map(str, number(label) or (label,)))
-        return f'<a id="{label}"></a>\n\n$$\n{body}\n\\tag{{{at}}}\n$$'
+        return f'<a id="{label}"></a>\n\n$$\n{body}\n\\tag{{{dotted(label)}}}\n$$'
 
     return LABELLED.sub(numbered, text)
 

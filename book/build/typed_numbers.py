@@ -28,6 +28,7 @@ UNITS = "degrees?|deg|millimet(?:re|er)s?|seconds?|minutes?|percent|times (?:as|
 IN_WORDS = re.compile(
     r"\b(?:two|three|four|five|six|seven|eight|nine|ten|eleven|twelve|\w+teen|twenty|hundred)"
     rf"(?: and a half)? (?:{UNITS})\b"
+    r"|\b(?:once|twice) and a half\b|\b(?:two|three|four) (?:thirds|quarters|fifths)\b"
 )
 PROSE = "admonition|glossary|note|tip|warning"
 """Directives whose content is prose."""

@@ -93,6 +93,9 @@ WORDS = {
     # Figures 4.3 and 4.4: mL, MPa
     "gas": lambda: f"{GAS_VOLUME / ML:.0f}",
     "larger_area": lambda: f"{_rate('larger area'):.1f}",
+    "area_time_share": lambda: f"{100 / _rate('larger area'):.0f}",
+    "speed_times": lambda: f"{_rate('higher speed'):.0f}",
+    "lead_share": lambda: f"{100 * _rate('smaller lead'):.0f}",
     "low": lambda: f"{_below():.2f}",
     "high": lambda: f"{HIGH / MPa:.2f}",
     "ceiling": lambda: f"{_ceiling():.2f}",

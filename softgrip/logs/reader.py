@@ -253,17 +253,15 @@ def _si_unit(table: TextTable, name: str, unit: str) -> str:
 
 def _check_time(table: TextTable, time: Floats, lines: Sequence[int]) -> None:
     """Refuse times that stand, run back, or jump: rows that were mixed, a clock that was set."""
-    for k in np.flatnonzero(np.diff(time) <= 0).tolist():
+    steps = np.diff(time)
+    most = MOST_MISSING * float(np.median(steps)) if steps.size else 0.0
+    for k in np.flatnonzero(steps <= 0).tolist():
         before, after = float(time[k]), float(time[k + 1])
         anew = " (a clock that begins anew is another log)" if after < before else ""
         raise table.refusal(f"a time above {before!r} s{anew}", repr(after), lines[k + 1])
-    steps = np.diff(time)
-    for k in np.flatnonzero(steps > MOST_MISSING * np.median(steps)).tolist() if steps.size else ():
-        before, most = float(time[k]), MOST_MISSING * float(np.median(steps))
-        raise table.refusal(
-            f"a time within {most:.3g} s of {before!r} s, {MOST_MISSING:.0e} rows on",
-            repr(float(time[k + 1])), lines[k + 1],
-        )  # fmt: skip
+    for k in np.flatnonzero(steps > most).tolist():
+        expected = f"a time within {most:.3g} s of {float(time[k])!r} s, {MOST_MISSING:.0e} rows on"
+        raise table.refusal(expected, repr(float(time[k + 1])), lines[k + 1])
 
 
 def kept_log(name: str) -> Path:

@@ -23,7 +23,7 @@ from softgrip.kept import Kept
 from softgrip.materials import ludwick, tensile
 from softgrip.materials.bootstrap import block_bootstrap
 from softgrip.materials.table import table_5_1
-from softgrip.materials.tensile import TensileTest, up_to_peak
+from softgrip.materials.tensile import SOFTEST, TensileTest, up_to_peak
 from softgrip.provenance import Provenance
 from softgrip.reads import remembered
 
@@ -77,10 +77,9 @@ def held_modulus(test: TensileTest) -> tuple[float, str]:
             expected=f"one in Pa, as {test.name!r} is not in Table 5.1, or a test past strain 1",
             got=f"none, strains {test.strain[0]:g} to {test.strain[-1]:g}",
         ) from None
-    if found < 1.0:  # Pa: no gel is as soft, and over it a stress has no size
-        raise InvalidInputError(
-            "stress", expected="1 Pa or more at strain 1, which is held as modulus", got=found
-        )
+    if found < SOFTEST:
+        expected = f"{SOFTEST:g} Pa or more at strain 1, which is held as modulus"
+        raise InvalidInputError("stress", expected=expected, got=found)
     return found, "the stress of the test at strain 1"
 
 

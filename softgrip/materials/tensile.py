@@ -29,6 +29,8 @@ COLUMNS = (
     "Engineering Strain",
     "Engineering Stress (MPa)",
 )
+SOFTEST = 1e3
+"""Stress by strain, Pa, below which no elastomer lies; foams and gels of a few kPa are above."""
 FEWEST_ROWS = 10
 """A file with fewer rows of numbers is taken for a torn one; the published have 222 or more."""
 

@@ -14,7 +14,7 @@ import numpy as np
 from softgrip.arrays import LARGEST_STRAIN, Floats
 from softgrip.errors import InvalidInputError
 from softgrip.materials.first_loading import Zero, first_loading
-from softgrip.materials.tensile import FEWEST_ROWS, TensileTest
+from softgrip.materials.tensile import FEWEST_ROWS, SOFTEST, TensileTest
 from softgrip.materials.tester_columns import UNITS, column, misfit
 from softgrip.materials.tester_sizes import area as area_of
 from softgrip.materials.tester_sizes import size
@@ -24,10 +24,6 @@ from softgrip.text_table import TextTable, read_table
 PROPORTIONAL = 0.02
 """Share of the largest stress by which force over area may differ from a stress that is
 engineering."""
-
-
-SOFTEST = 1e3
-"""Stress by strain, Pa, below which no elastomer lies; foams and gels of a few kPa are above."""
 
 
 @dataclass(frozen=True, eq=False)

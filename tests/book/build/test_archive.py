@@ -9,6 +9,7 @@ import tarfile
 
 import pytest
 
+import softgrip
 from book.build import archive
 from softgrip.errors import SoftgripError
 
@@ -67,11 +68,16 @@ def test_what_a_build_leaves_is_not_packed(tree):
 def test_it_says_whether_it_differs_from_the_commit(checkout):
     git(checkout, "add", "measured.csv")
     git(checkout, "commit", "-qm", "second")
-    assert archive.edition(checkout)["differs_from_commit"] == []
+    assert archive.edition(checkout).changed == ()
     (checkout / "run").write_text("changed")
     told = archive.edition(checkout)
-    assert told["differs_from_commit"] == ["run"]
-    assert len(told["commit"]) == 40
+    assert told.changed == ("run",)
+    assert len(told.commit) == 40
+    assert str(told).endswith(f", commit {told.commit[:8]} with changes")
+
+
+def test_sources_without_their_history_have_a_version(tmp_path):
+    assert str(archive.edition(tmp_path)) == f"Version {softgrip.__version__}"
 
 
 def test_packed_twice_it_is_the_same_and_its_sums_hold(checkout, tree, tmp_path):

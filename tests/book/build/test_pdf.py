@@ -12,7 +12,7 @@ from bs4 import BeautifulSoup
 from pypdf import PdfReader
 from pypdf.generic import ArrayObject, DictionaryObject
 
-from book.build import pdf
+from book.build import browser, pdf
 
 pytestmark = [pytest.mark.book, pytest.mark.browser]
 
@@ -85,7 +85,7 @@ def made(html, browser, tmp_path_factory) -> Printed:
         page.wait_for_load_state()
         alone += page.evaluate(CUT, pdf.WIDTH)
     aside = tmp_path_factory.mktemp("pdf") / "book.html"
-    words = {"description": "Some pages", "author": "Nobody", "edition": pdf.edition()}
+    words = {"description": "Some pages", "author": "Nobody", "edition": str(pdf.edition(pdf.ROOT))}
     first = pdf.printed(page, pdf.joined(taken, words, {}), aside)
     second = pdf.printed(page, pdf.joined(taken, words, pdf.places(first)), aside)
     cut = page.evaluate(CUT, pdf.WIDTH)
@@ -224,7 +224,7 @@ class TestPdf:
         assert [uri for uri in outside if not uri.startswith(("http", "mailto"))] == []
 
     def test_the_title_page_names_the_edition(self, made):
-        assert bare(pdf.edition()) in made.texts[0]
+        assert bare(str(pdf.edition(pdf.ROOT))) in made.texts[0]
         assert made.reader.metadata.title == "softgrip"
 
 
@@ -234,6 +234,6 @@ def test_the_pages_are_those_of_the_book(html):
 
 
 def test_without_chromium_it_says_what_to_install(monkeypatch, tmp_path):
-    monkeypatch.setattr(pdf.shutil, "which", lambda _: None)
+    monkeypatch.setattr(browser.shutil, "which", lambda _: None)
     with pytest.raises(SystemExit, match="apt-get install chromium"):
         pdf.make(tmp_path, tmp_path / "book.pdf", [])

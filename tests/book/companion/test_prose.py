@@ -32,6 +32,10 @@ def test_a_typed_number_is_seen():
         "eighteen times as",
         "ten degrees",
     ]
+    assert typed("twice and a half the area in two fifths of the time") == [
+        "twice and a half",
+        "two fifths",
+    ]
 
 
 def test_a_typed_number_is_told_by_the_line_of_its_paragraph():
