@@ -8,6 +8,8 @@ document.addEventListener("DOMContentLoaded", () => {
   };
   // Also when a fold opens, or the window is made smaller.
   const seen = new ResizeObserver((found) => found.forEach((one) => mark(one.target)));
-  const places = ".pst-scrollable-table-container, .cell_output .text_html, pre, .more details > div";
-  for (const place of document.querySelectorAll(places)) seen.observe(place);
+  const places = document.querySelectorAll(".pst-scrollable-table-container, .equation, pre, "
+    + ".cell_output .text_html, .more details > div");
+  for (const place of places) seen.observe(place);
+  document.fonts?.ready.then(() => places.forEach(mark)); // an equation is then another size
 });

@@ -60,6 +60,17 @@ def opened(html: Path) -> list[Path]:
     return [file for file in pages(html) if file not in sources] + sources[::20]
 
 
+CUT = """async () => {
+  await document.fonts.ready;
+  await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+  const wide = [...document.querySelectorAll("article .equation, article pre")].filter(
+    (it) => it.scrollWidth > it.clientWidth + 1 && it.getClientRects().length);
+  const silent = wide.filter((it) => !it.classList.contains("scrolls") || it.tabIndex !== 0);
+  return [wide.length, silent.map((it) => it.textContent.slice(0, 60))];
+}"""
+"""How many equations and pieces of code are wider than their place, and those without a sign."""
+
+
 @dataclass(frozen=True)
 class Seen:
     """What a page was once it had loaded: the same visit serves several tests."""
@@ -71,6 +82,9 @@ class Seen:
     misread: int
     widths: dict[int, int]
     """Of the document, px, by that of the screen."""
+    cut: int
+    silent: list[str]
+    """Of what is wider than its place on the narrower screen: what has no sign of it."""
 
 
 @pytest.fixture(scope="module")
@@ -90,6 +104,7 @@ def seen(html, browser):
                 page.locator(".math .katex").count(),
                 page.locator(".katex-error").count(),
                 widths,
+                *page.evaluate(CUT),
             )
 
     return {file: look(file) for file in opened(html)}
@@ -110,6 +125,14 @@ def test_equations_are_typeset(seen):
         assert page.typeset >= page.equations, file
         assert page.misread == 0, file
     assert sum(page.equations for page in seen.values()) > 10
+
+
+@pytest.mark.browser
+@pytest.mark.usefixtures("local_scripts")
+def test_what_is_cut_on_a_narrow_screen_shows_it_and_is_reached_by_the_keyboard(seen):
+    own = {file: page for file, page in seen.items() if "_modules" not in file.parts}
+    assert {file: page.silent for file, page in own.items() if page.silent} == {}
+    assert sum(page.cut for page in own.values()) > 20
 
 
 @pytest.mark.browser
