@@ -61,14 +61,15 @@ def opened(html: Path) -> list[Path]:
 
 
 CUT = """async () => {
+  document.querySelectorAll("article details").forEach((fold) => { fold.open = true; });
   await document.fonts.ready;
   await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
   const wide = [...document.querySelectorAll("article .equation, article pre")].filter(
-    (it) => it.scrollWidth > it.clientWidth + 1 && it.getClientRects().length);
+    (it) => it.scrollWidth > it.clientWidth + 1 && it.checkVisibility());
   const silent = wide.filter((it) => !it.classList.contains("scrolls") || it.tabIndex !== 0);
   return [wide.length, silent.map((it) => it.textContent.slice(0, 60))];
 }"""
-"""How many equations and pieces of code are wider than their place, and those without a sign."""
+"""How many equations and pieces of code, folds open, are wider than their place; which show no sign."""
 
 
 @dataclass(frozen=True)
