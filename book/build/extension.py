@@ -20,6 +20,7 @@ from book.build import (
     notebooks,
     numbering,
     search,
+    style_sheets,
     tracing,
     typed_numbers,
     vendor,
@@ -142,6 +143,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     equations.setup(app)
     numbering.setup(app)
     search.setup(app)
+    style_sheets.setup(app)
     typed_numbers.setup(app)
     app.connect("config-inited", use_local_scripts)
     app.connect("builder-inited", prepare_kernels)

@@ -1,13 +1,17 @@
 """Every page of the built book, opened in a browser that has no network."""
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import groupby
 from pathlib import Path
 from urllib.parse import parse_qsl, unquote, urlsplit
 
 import jupytext
 import nbformat
+import pydata_sphinx_theme
 import pytest
+import tinycss2
 from bs4 import BeautifulSoup
 
 from book.build.equations import NUMBERS, pairs
@@ -69,7 +73,35 @@ CUT = """async () => {
   const silent = wide.filter((it) => !it.classList.contains("scrolls") || it.tabIndex !== 0);
   return [wide.length, silent.map((it) => it.textContent.slice(0, 60))];
 }"""
-"""How many equations and pieces of code, folds open, are wider than their place; which show no sign."""
+"""Equations and pieces of code wider than their place, folds open: how many, and which say not."""
+
+
+MATCHED = """(selectors) => selectors.filter((one) => document.querySelector(one))"""
+STATE = re.compile(r"::[\w-]+|:(?:before|after|hover|active|focus[\w-]*|checked|disabled)\b")
+"""What a selector asks of more than the document."""
+
+
+def selectors(file: Path) -> set[str]:
+    """Return what the rules of a style sheet ask of a document, those within ``@media`` too."""
+
+    def of_rules(rules) -> Iterator[str]:
+        for rule in rules:
+            if rule.type == "qualified-rule":
+                commas = groupby(rule.prelude, lambda token: token == ",")
+                for part in (list(part) for comma, part in commas if not comma):
+                    yield STATE.sub("", tinycss2.serialize(part)).strip()
+            elif rule.type == "at-rule" and rule.lower_at_keyword in ("media", "supports"):
+                yield from of_rules(tinycss2.parse_rule_list(rule.content, True, True))
+
+    sheet = tinycss2.parse_stylesheet(file.read_text(encoding="utf-8"), True, True)
+    return {one for one in of_rules(sheet) if one and one[-1] not in ">+~"}
+
+
+def left_out(html: Path) -> list[str]:
+    """Return what the theme's rules ask for that the built book's sheet has no more."""
+    sheet = "styles/pydata-sphinx-theme.css"
+    theme = Path(pydata_sphinx_theme.__file__).parent / "theme/pydata_sphinx_theme/static"
+    return sorted(selectors(theme / sheet) - selectors(html / "_static" / sheet))
 
 
 @dataclass(frozen=True)
@@ -86,11 +118,14 @@ class Seen:
     cut: int
     silent: list[str]
     """Of what is wider than its place on the narrower screen: what has no sign of it."""
+    unstyled: list[str]
+    """Of the rules of the theme that were left out: what the page has them match."""
 
 
 @pytest.fixture(scope="module")
 def seen(html, browser):
     """Open each page once."""
+    gone = left_out(html)
 
     def look(file: Path) -> Seen:
         with Visit(browser, file) as visit:
@@ -106,6 +141,7 @@ def seen(html, browser):
                 page.locator(".katex-error").count(),
                 widths,
                 *page.evaluate(CUT),
+                page.evaluate(MATCHED, gone),
             )
 
     return {file: look(file) for file in opened(html)}
@@ -117,6 +153,13 @@ def test_no_page_asks_the_network_or_complains(seen):
     for file, page in seen.items():
         assert page.schemes <= {"file", "data", "blob"}, file
         assert page.complaints == [], file
+
+
+@pytest.mark.browser
+@pytest.mark.usefixtures("local_scripts")
+def test_no_rule_of_the_theme_was_left_out_that_matches_a_part_of_a_page(seen, html):
+    assert len(left_out(html)) > 3000  # of some 4,800
+    assert {file: page.unstyled for file, page in seen.items() if page.unstyled} == {}
 
 
 @pytest.mark.browser
