@@ -74,13 +74,19 @@ function isTitle(entry, words) {
   return words.every((word) => title.some((head) => head.startsWith(word) || head === stem(word)));
 }
 
+// A decimal comma, where it can be no other: after a nought, or not before three digits.
+const pointed = (query) => query.replace(/\b(0|\d+(?=,(?!\d{3}\b))),(?=\d)/g, "$1.");
+
 function search(query) {
-  const words = [...new Set(tokens(query))], phrase = lower(query.trim());
+  const words = [...new Set(tokens(pointed(query)))], phrase = lower(query.trim());
   for (const round of words.length ? [0, 1, 2] : []) {
     const found = look(words, round);
     if (!found.length) continue;
+    // Where some of the words will do, a number is what is asked for, and not its unit.
+    const digits = words.filter((word) => NUMBER.test(word));
+    const asked = round > 1 && digits.length ? digits : words;
     const results = found.map(({ id, score, terms }) => {
-      const entry = entries[id], tier = rank(entry, words);
+      const entry = entries[id], tier = rank(entry, asked);
       // The shorter label is the nearer to the number; words that stand together count twice.
       if (tier < HEADING) score = -entry.label.length;
       else if (words.length > 1 && lower(entry.text).includes(phrase)) score *= 2;

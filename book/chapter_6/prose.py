@@ -24,6 +24,11 @@ from softgrip.simulator.fitted_rigs import printed_gripper
 from softgrip.units import DEG, MM, REV
 
 
+def _out_of_step(name: str) -> float:
+    """Return the median of the largest difference between the fingers, deg."""
+    return float(np.median(comparison.judged(name).synchronization)) / DEG
+
+
 def _plant(finger: FingerDynamics) -> str:
     return f"{finger.damping:.4g} and {finger.stiffness:.4g}"
 
@@ -78,6 +83,9 @@ WORDS = {
     "slow_settled": lambda: f"{numbers.settled_on_rig('2/s', '5 %'):.1f}",
     "rig_moved": lambda: f"{-results.push_response()[1][0].min() / DEG:.0f}",
     "rig_back": lambda: f"{results.recovery(1 * DEG)[0]:.1f}",
+    "error_slow": lambda: f"{np.median(comparison.judged('2/s').error) / DEG:.1f}",
+    "error_fast": lambda: f"{np.median(comparison.judged('4.8/s').error) / DEG:.1f}",
+    "step_gain": lambda: f"{_out_of_step('4.8/s') - _out_of_step('2/s'):.1f}",
     "disc": lambda: f"{2 * ElasticDisc(1.0).radius / MM:g}",
     "soft": lambda: f"{STIFFNESS['soft']:g}",
     "medium": lambda: f"{STIFFNESS['medium']:g}",

@@ -7,6 +7,7 @@ document.addEventListener("DOMContentLoaded", () => {
     cards.set(card.dataset.of, card);
     card.addEventListener("pointerenter", () => clearTimeout(soon));
     card.addEventListener("pointerleave", () => later(() => hide(card)));
+    card.addEventListener("focusout", (e) => { if (!card.contains(e.relatedTarget)) hide(card); });
   }
   addEventListener("keydown", ({ key }) => { if (key === "Escape") cards.forEach(hide); });
   let soon;
@@ -15,7 +16,8 @@ document.addEventListener("DOMContentLoaded", () => {
 
   function show(mark, card) {
     clearTimeout(soon);
-    if (!card.matches(":popover-open")) card.showPopover();
+    // The card is then the next stop of the Tab key.
+    if (!card.matches(":popover-open")) card.showPopover({ source: mark });
     const at = mark.getClientRects()[0], { clientWidth, clientHeight } = document.documentElement;
     const left = Math.max(8, Math.min(at.left, clientWidth - card.offsetWidth - 8));
     const above = at.bottom + card.offsetHeight > clientHeight && at.top > card.offsetHeight;

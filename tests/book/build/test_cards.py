@@ -355,6 +355,20 @@ def test_the_keyboard_shows_hides_and_leads_on(page, built):
 
 
 @pytest.mark.browser
+def test_the_link_of_an_open_card_is_the_next_stop_and_leaving_it_closes_the_card(page, built):
+    page.locator("h1").first.click()
+    page.evaluate("document.querySelector('a.claim').focus({ focusVisible: true })")
+    until(page, [f"card-claim-{built.ids[0]}"])
+    page.keyboard.press("Tab")
+    card = page.evaluate("document.activeElement.closest('.note-card')?.id")
+    assert card == f"card-claim-{built.ids[0]}"
+    page.keyboard.press("Tab")
+    until(page, [f"card-claim-{built.ids[1]}"])
+    page.keyboard.press("Shift+Tab")
+    until(page, [f"card-claim-{built.ids[0]}"])
+
+
+@pytest.mark.browser
 def test_a_click_leads_to_the_row(page, built):
     page.locator("a.claim").first.click()
     page.wait_for_url(f"**/ledger.html#claim-{built.ids[0]}")

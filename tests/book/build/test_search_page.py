@@ -222,6 +222,16 @@ def test_a_slip_of_a_letter_is_forgiven_and_said(page, typed, meant):
         assert page.locator(".search-count").inner_text().startswith("Nothing matches this")
 
 
+def test_a_decimal_comma_is_a_point(page):
+    assert page.evaluate(FOUND, "0,359") == page.evaluate(FOUND, "0.359")
+    assert page.evaluate("pointed('1,009 of 1,5 and 12,25')") == "1,009 of 1.5 and 12.25"
+
+
+def test_a_number_with_a_unit_that_it_has_not_still_leads_to_the_number(page):
+    first = page.evaluate(FOUND, "5.14 MPa")[0]
+    assert (first["kind"], first["place"]) == ("equation", page.evaluate(FOUND, "5.14")[0]["place"])
+
+
 def test_what_is_nowhere_gives_nothing(page):
     assert shown(page, "xyzzyquux") == []
     assert page.locator(".search-count").inner_text() == "0 results"
