@@ -171,5 +171,8 @@ def main(*, wheels: bool) -> Path:
 
 
 if __name__ == "__main__":
-    made = main(wheels="--wheels" in sys.argv[1:])
+    try:
+        made = main(wheels="--wheels" in sys.argv[1:])
+    except (SoftgripError, subprocess.CalledProcessError) as error:
+        sys.exit(f"No archive was made: {error}")
     print(f"{made} ({made.stat().st_size / 1e6:.0f} MB)")

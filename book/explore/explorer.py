@@ -60,7 +60,7 @@ def _laws(law: Callable[..., Any], sliders: Mapping[str, Slider | Range]) -> dic
     }
 
 
-def _frames(draw: Callable[..., Any], sliders: Mapping[str, Slider | Range]) -> list[str]:
+def _frames(draw: Callable[..., Any], sliders: Mapping[str, Slider | Range]) -> list[Frame]:
     values = [slider.values for slider in sliders.values() if isinstance(slider, Slider)]
     if len(values) < len(sliders):
         raise InvalidInputError("explore", expected="a Plot, or sliders of values", got=[*sliders])
@@ -68,7 +68,7 @@ def _frames(draw: Callable[..., Any], sliders: Mapping[str, Slider | Range]) -> 
     check_count(len(combinations))
     frames = [render(draw, dict(zip(sliders, chosen, strict=True))) for chosen in combinations]
     PAGE.spend(frames)
-    return [_address(frame) for frame in frames]
+    return frames
 
 
 def _address(frame: Frame) -> str:
@@ -130,7 +130,9 @@ def explore(
             from book.explore.redrawn import redrawn
 
             return redrawn(function, fixed, alt)
-        return Explorer(name, chosen, alt, called, frames=_frames(function, chosen))
+        frames = _frames(function, chosen)
+        addresses, told = [_address(frame) for frame in frames], [frame.told for frame in frames]
+        return Explorer(name, chosen, alt, called, frames=addresses, told=told)
     found = function(**{n: s.values[s.start] if isinstance(s, Slider) else s.start
                         for n, s in chosen.items()})  # fmt: skip
     if lacking := plot.names() - found.keys() - chosen.keys():

@@ -24,11 +24,12 @@ MAX_PAGE = 3_000_000
 
 @dataclass(frozen=True)
 class Frame:
-    """A figure as WebP, and its size in pixels."""
+    """A figure as WebP, its size in pixels, and what its titles say."""
 
     webp: bytes
     width: int
     height: int
+    told: str = ""
 
     @property
     def size(self) -> int:
@@ -36,23 +37,29 @@ class Frame:
         return 4 * -(-len(self.webp) // 3)
 
 
-def _encode(figure: Figure) -> Frame:
+def _encode(figure: Figure, *, small: bool) -> Frame:
     # Not savefig: its result depends on settings of the notebook, such as a tight bounding box.
     figure.set_dpi(DPI)
     canvas: Any = FigureCanvasAgg(figure)  # has no types
     canvas.draw()
     picture = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
     file = io.BytesIO()
-    picture.point(COARSE * 3).save(file, format="webp", lossless=True, method=2, quality=50)
-    return Frame(file.getvalue(), *picture.size)
+    effort: dict[str, Any] = {"method": 2, "quality": 50} if small else {"method": 0, "quality": 0}
+    picture.point(COARSE * 3).save(file, format="webp", lossless=True, **effort)
+    titles = [*(axes.get_title() for axes in figure.axes), *(t.get_text() for t in figure.texts)]
+    told = "; ".join(" ".join(title.split()) for title in titles if title)
+    return Frame(file.getvalue(), *picture.size, told)
 
 
-def render(draw: Callable[..., Figure], parameters: Mapping[str, Any]) -> Frame:
+def render(
+    draw: Callable[..., Figure], parameters: Mapping[str, Any], *, small: bool = True
+) -> Frame:
     """Draw one frame, and leave no pyplot figure open that was not open before.
 
     Args:
         draw: Returns a matplotlib Figure.
         parameters: What it is called with.
+        small: Whether to take three times as long to encode it, for a file of a third.
 
     Raises:
         InvalidInputError: If it returns something else. What it raises itself passes, with the
@@ -63,7 +70,7 @@ def render(draw: Callable[..., Figure], parameters: Mapping[str, Any]) -> Frame:
         figure = draw(**parameters)
         if not isinstance(figure, Figure):
             raise InvalidInputError("draw", expected="a function that returns a Figure", got=figure)
-        return _encode(figure)
+        return _encode(figure, small=small)
     except Exception as error:
         error.add_note(f"while drawing with {dict(parameters)}")
         raise

@@ -29,7 +29,7 @@ class Explorer:
         alt: The picture in words.
         call: The function that gives the same in Python.
         plot, laws: What is drawn, and the law in JavaScript for each choice among words; or
-        frames: pictures that were drawn ahead, as addresses of data.
+        frames, told: pictures that were drawn ahead, as addresses of data, and what each says.
         alone: Whether it brings the scripts along that a page of the book has.
     """
 
@@ -40,6 +40,7 @@ class Explorer:
     plot: Plot | None = None
     laws: Mapping[str, str] | None = None
     frames: Sequence[str] = ()
+    told: Sequence[str] = ()
     alone: bool = False
 
     def _repr_html_(self) -> str:
@@ -51,7 +52,8 @@ class Explorer:
         )
         if self.plot is None:
             picture = f'<img src="{self.frames[0]}" alt="{html.escape(self.alt)}">'
-            role, told, play, values = "", "", "", ""
+            role, play, values = "", "", ""
+            told = '<p class="told heard" aria-live="polite"></p>'
         else:
             picture, role = "", ' role="img"'
             told = '<p class="told" aria-live="polite"></p>'
@@ -77,7 +79,7 @@ class Explorer:
             "alt": self.alt, "call": self.call,
         }  # fmt: skip
         if self.plot is None:
-            told["frames"] = self.frames
+            told |= {"frames": self.frames, "told": self.told}
         else:
             told["plot"] = self.plot.data()
         # A closing tag in a text would end the script.

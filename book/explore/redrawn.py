@@ -18,7 +18,7 @@ def _image(frame: Frame, alt: str, sliders: Sequence[Slider], values: Sequence[V
     Width and height keep the frame's place, so that the page does not jump when it is exchanged.
     """
     state = (f"{s.label} {s.written(v)}" for s, v in zip(sliders, values, strict=True))
-    text = html.escape("; ".join([*filter(None, [alt]), *state]))
+    text = html.escape("; ".join(filter(None, [alt, *state, frame.told])))
     data = b64encode(frame.webp).decode()
     return (
         f'<img src="data:image/webp;base64,{data}" alt="{text}" decoding="sync" '
@@ -51,7 +51,7 @@ def redrawn(draw: Callable[..., Figure], sliders: Mapping[str, Slider], alt: str
 
     def redraw() -> None:
         values = {name: control.value for name, control in controls.items()}
-        frame = render(draw, values)
+        frame = render(draw, values, small=False)
         picture.value = _image(frame, alt, [*sliders.values()], [*values.values()])
 
     def answer(_change: object) -> None:

@@ -19,6 +19,7 @@ from time import perf_counter
 import psutil
 from playwright.sync_api import Browser, sync_playwright
 
+from tests.bench import explorers
 from tests.bench.entry import Entry, entry, table, timed, write
 from tests.book.conftest import CHROMIUM, FLAGS
 
@@ -138,8 +139,8 @@ def entries(former: str = FORMER, rounds: int = 3) -> list[Entry]:
                 for measure in (tree.build, lambda t=tree: t.load(browser), tree.imports):
                     for what, value in measure().items():
                         found[what][side].append(value)
+        lines = explorers.entries(browser, trees[0].folder / "book/_build/html")
         browser.close()
-    lines = []
     for what, sides in found.items():
         own, then = map(statistics.median, sides)
         words, holds = WANTED[what]

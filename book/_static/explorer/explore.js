@@ -182,7 +182,8 @@
         const index = it.sliders.reduce((at, s, i) => at * s.values.length + +controls[i].value, 0);
         const image = part("panels").firstElementChild;
         image.src = it.frames[index];
-        image.alt = [it.alt, ...state].join("; ");
+        image.alt = [it.alt, ...state, it.told[index]].join("; ");
+        part("told").textContent = it.told[index];
       } else {
         const found = Object.assign(Object.fromEntries(it.sliders.map((s, i) => [s.name, now[i]])), compute(now));
         const hit = it.plot.cases.find(([name]) => found[name][0]);

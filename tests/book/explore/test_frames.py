@@ -182,9 +182,9 @@ def test_the_budget_is_three_megabytes_and_says_what_came():
 def test_a_live_slider_redraws_and_leaves_no_figure_open():
     widget = explore(draw_pyplot, mode="live", a=Slider([1, 2, 3], "A", default=2))
     (control,), picture = controls(widget), widget.children[-1]
-    assert webp(picture) == render(draw_pyplot, {"a": 2}).webp
+    assert webp(picture) == render(draw_pyplot, {"a": 2}, small=False).webp
     control.index = 2
-    assert webp(picture) == render(draw_pyplot, {"a": 3}).webp
+    assert webp(picture) == render(draw_pyplot, {"a": 3}, small=False).webp
     assert plt.get_fignums() == []
 
 
@@ -200,7 +200,7 @@ def test_a_live_error_is_shown_and_the_last_good_picture_stays():
     assert picture.value == good
     control.index = 0
     assert complaint.value == ""
-    assert webp(picture) == render(draw_up_to_two, {"a": 1}).webp
+    assert webp(picture) == render(draw_up_to_two, {"a": 1}, small=False).webp
 
 
 @pytest.mark.parametrize("mode", ["live", "static"])
@@ -219,7 +219,20 @@ def test_labels_units_and_alt_text_of_a_live_one():
     first, second = controls(widget)
     assert (first.description, second.description) == ("Pressure <p>", "b")
     assert (first.label, second.label) == ("20 kPa", "linear")
-    assert alt(widget.children[-1]) == 'A "curve"; Pressure <p> 20 kPa; b linear'
+    assert alt(widget.children[-1]) == 'A "curve"; Pressure <p> 20 kPa; b linear; 20.0; linear'
+
+
+def test_what_the_titles_of_a_frame_say_is_told_in_words_too():
+    def draw(item):
+        figure = Figure()
+        figure.subplots().set_title(f"{item}:\nfelt as point")
+        figure.text(0, 0, "by touch")
+        return figure
+
+    shown = explore(draw, mode="static", item=["egg", "coin"])
+    assert told(shown)["told"] == ["egg: felt as point; by touch", "coin: felt as point; by touch"]
+    widget = explore(draw, mode="live", item=["egg", "coin"])
+    assert alt(widget.children[-1]) == "item egg; egg: felt as point; by touch"
 
 
 def test_labels_units_and_alt_text_of_a_static_one():
