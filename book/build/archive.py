@@ -25,6 +25,8 @@ from softgrip.errors import SoftgripError
 
 NAME = f"softgrip-{softgrip.__version__}"
 SUMS, MANIFEST = "SHA256SUMS", "MANIFEST.json"
+MADE_FOR = "made-for.txt"
+"""Which Python the wheels are for, said by ``.ci/environment`` where they do not fit."""
 NOT_KEPT = ("book/_build", "dist", "__pycache__", ".venv")
 """What a build leaves in the archive's tree and no archive holds."""
 
@@ -86,6 +88,9 @@ def download(tree: Path) -> None:
         [*command, "--requirement", tree / "environment.lock", "--dest", tree / "wheels"],
         check=True,
     )
+    # The lock has other versions for other Pythons, also for 3.11.2 than for 3.11.7.
+    made_for = f"Python {platform.python_version()}, {platform.system()} {platform.machine()}\n"
+    (tree / "wheels" / MADE_FOR).write_text(made_for, encoding="utf-8")
 
 
 def files(tree: Path) -> list[str]:

@@ -130,3 +130,13 @@ def test_nothing_but_the_tree_is_found_when_it_is_built(tmp_path, monkeypatch):
         "assert not tensile.available() and not published_readings.available()\n"
     )
     subprocess.run([sys.executable, "-c", program], check=True, env=archive.alone(tmp_path))
+
+
+def test_packages_that_do_not_fit_this_python_say_for_which_they_are(root, tmp_path):
+    (tmp_path / "wheels").mkdir()
+    (tmp_path / "wheels" / archive.MADE_FOR).write_text("Python 3.99.1, Linux x86_64\n")
+    shutil.copy(root / "environment.lock", tmp_path)
+    command = [root / ".ci" / "environment", "made", sys.executable, "book"]
+    ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert ran.returncode == 1
+    assert "wheels/ are for Python 3.99.1, Linux x86_64: make book PYTHON=" in ran.stderr
