@@ -5,6 +5,7 @@ import json
 import shutil
 import tomllib
 
+import frictionless
 import pytest
 
 from book.build.data_package import NAME, WORDS, description, kind, text
@@ -39,9 +40,6 @@ def test_it_has_what_the_specification_asks_for():
 
 
 def test_frictionless_agrees():
-    frictionless = pytest.importorskip(
-        "frictionless", reason="brings 17 packages that nothing else here needs: not in the lock"
-    )
     report = frictionless.validate(str(FOLDER / NAME))
     assert report.valid, report.flatten(["type", "note"])[:10]
 
