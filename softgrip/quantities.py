@@ -58,6 +58,7 @@ _OWN = (
     "radian = [angle] = rad",
     "count = [count] = count = counts = LSB",
     "rev = revolution",
+    "r = revolution",  # r/min, as data sheets of motors have it
     "psig = psi",  # above the atmosphere, as each pressure here
     "barg = bar",
 )

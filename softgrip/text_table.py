@@ -377,7 +377,8 @@ def _appended(found: Sequence[_Block]) -> _Block:
 def _left_out(chosen: _Block, found: Sequence[_Block]) -> list[str]:
     """Say what follows the names of a table and is not in it."""
     notes = [
-        f"lines {first} to {last}, after the table, were left out"
+        (f"line {first}" if first == last else f"lines {first} to {last}")
+        + f", after the table, {'was' if first == last else 'were'} left out"
         for first, last in [one.rest for one in found if one is chosen or chosen not in found]
         if first
     ]

@@ -179,6 +179,7 @@ def test_what_is_not_in_the_table_is_said(table):
         "lines 9 to 10, after the table, were left out",
         "the table of 1 rows under line 2 was left out",
     )
+    assert table(PLAIN + "\nEnd\n").notes == ("line 5, after the table, was left out",)
 
 
 ALPHABET = "abcdefgh \u00b5\u00e9"
