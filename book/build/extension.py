@@ -25,6 +25,7 @@ from book.build import (
     typed_numbers,
     vendor,
 )
+from book.companion import prose
 from book.companion.judged import VARIABLE
 
 
@@ -43,6 +44,12 @@ def _verdicts(app: Sphinx) -> Path:
 
 def _trace(app: Sphinx, page: str) -> Path:
     return _build_folder(app) / "traces" / f"{page}.json"
+
+
+def _numbers(app: Sphinx, page: str) -> str:
+    """Return the names of the computed numbers that a page's prose uses, parted by blanks."""
+    text = Path(app.env.doc2path(page)).read_text(encoding="utf-8")
+    return " ".join(prose.used(text))
 
 
 def use_local_scripts(app: Sphinx, config: Any) -> None:
@@ -71,6 +78,8 @@ def prepare_kernels(app: Sphinx) -> None:
     os.environ["SOFTGRIP_FRAMES"] = str(_drawn(app))
     os.environ[VARIABLE] = str(_verdicts(app))
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # else each process compiles all it imports
+    for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+        os.environ.setdefault(threads, "1")  # a page has a core: more would wait for each other
 
 
 def find_stale_pages(
@@ -86,7 +95,9 @@ def find_stale_pages(
     for entry in sorted(cache.list_cache_records(), key=lambda e: e.created, reverse=True):
         # Relative by text: the outputs may be those of a folder that has been moved since.
         page = Path(os.path.relpath(entry.uri, app.srcdir)).with_suffix("").as_posix()
-        current = page in env.found_docs and tracing.is_current(_trace(app, page), around)
+        current = page in env.found_docs and tracing.is_current(
+            _trace(app, page), around | {prose.USED: _numbers(app, page)}
+        )
         if not current:
             stale.add(page)
         if not current or page in seen:
@@ -99,11 +110,11 @@ def find_stale_pages(
 
 def announced(app: Sphinx, page: str) -> dict[str, str]:
     """Write down what is around a page, and return what tells its kernel which page it serves."""
-    trace = _trace(app, page)
+    trace, numbers = _trace(app, page), {prose.USED: _numbers(app, page)}
     context = tracing.context_of(trace)
     context.parent.mkdir(parents=True, exist_ok=True)
-    context.write_text(json.dumps(tracing.surroundings()))
-    return {tracing.TRACE_VARIABLE: str(trace)}
+    context.write_text(json.dumps(tracing.surroundings() | numbers))
+    return {tracing.TRACE_VARIABLE: str(trace), **numbers}
 
 
 def run_pages(app: Sphinx, env: Any, pages: list[str]) -> None:

@@ -5,6 +5,8 @@ for each name what makes the text. A caption has ``{{ name }}`` in the place of 
 ``{glue:text}`name```. What a claim prints is ``{{ @id }}`` in a caption, ``{claim}`id``` in a page.
 """
 
+import os
+import re
 from collections.abc import Callable, Mapping
 from functools import cache
 from importlib import import_module
@@ -14,6 +16,9 @@ from book.companion.markdown import in_static_book
 from book.companion.verdict import CLOSE
 from softgrip.errors import UnknownNameError
 
+USED = "SOFTGRIP_NUMBERS_USED"
+"""Variable with the names that the page uses which is built, parted by blanks."""
+NAME = re.compile(r"\{glue:text\}`([^`:]+)")
 WORDS = {"close": lambda: f"{100 * CLOSE:g}"}
 """Of the pages on the ledger itself, whose room this is."""
 
@@ -46,11 +51,24 @@ def word(page: int | str, name: str) -> str:
     return printed_text(name[1:]) if name.startswith("@") else _computed(page, name)
 
 
+def used(text: str) -> list[str]:
+    """Return the names of the numbers that the text of a page uses.
+
+    >>> used("From {glue:text}`low` to {glue:text}`high`, {glue:text}`low` again")
+    ['high', 'low']
+    """
+    return sorted(set(NAME.findall(text)))
+
+
 def tell(page: int | str) -> None:
-    """Make the computed numbers of a page known to it; a notebook has them in its text."""
+    """Make the computed numbers of a room known to the page that is built, of those that it uses.
+
+    A notebook has them in its text.
+    """
     if not in_static_book():
         return
     from myst_nb import glue  # brings Sphinx, which captions do not need
 
-    for name in words(page):
+    asked = os.environ.get(USED)
+    for name in words(page) if asked is None else words(page).keys() & asked.split():
         glue(name, word(page, name), display=False)

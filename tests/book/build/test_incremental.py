@@ -3,6 +3,7 @@
 import shutil
 
 import pytest
+from bs4 import BeautifulSoup
 
 from tests.book.conftest import build
 
@@ -85,6 +86,18 @@ def test_exactly_the_dependent_pages_run_again(project):
     page.write_text(text)
     assert built() == {"a", "b"}
     assert "3000000.0" in (project / "book/_build/html/a.html").read_text()
+
+    # A page is told the numbers that its prose uses: one more, with the same code, is another run.
+    other = project / "book/b.md"
+    tells = 'from book.companion.prose import tell\ntell("companion")'
+    other.write_text(PAGE.format(title="B", code=tells))
+    assert built() == {"b"}
+    other.write_text(other.read_text() + "\nWithin {glue:text}`close` %.\n")
+    assert built() == {"b"}
+    assert (
+        "Within 5 %"
+        in BeautifulSoup((project / "book/_build/html/b.html").read_text(), "html.parser").text
+    )
 
     moved = project.with_name("moved")
     project.rename(moved)
