@@ -70,13 +70,15 @@ def test_a_cable_pulled_and_put_back(tmp_path):
 
 
 class Listened(EmulatedFingers):
-    """A line that knows when the host's last bytes came, by the board's time."""
+    """A line that knows when the host's bytes came, by the board's time."""
 
-    heard = 0.0
+    def __init__(self):
+        super().__init__()
+        self.heard = []
 
     def write(self, data):
         super().write(data)
-        self.heard = self.now()
+        self.heard.append(self.now())
 
 
 DRIVEN = """
@@ -116,10 +118,13 @@ def test_a_killed_host_stops_the_board_and_leaves_a_log_that_lacks_a_second_at_m
             time.sleep(0.05)
     steps = np.asarray(line.board.edges()[0])
     assert line.now() > killed + SILENCE + 0.2
-    # Bytes were under way; from the last of them on it is the board's own patience that counts,
-    # and its motor was turning.
-    assert line.heard < killed + 0.1
-    assert line.heard < steps[-1] < line.heard + SILENCE + 0.03
+    heard, last = np.asarray(line.heard), steps[-1]
+    assert heard[-1] < killed + 0.1  # bytes were under way
+    # From the last of them on the patience of the board counts, and its motor was turning; unless a
+    # busy machine had kept the host silent for so long that the board had stopped.
+    before, after = heard[heard < last], heard[heard >= last]
+    assert last < before[-1] + SILENCE + 0.03
+    assert after.size == 0 or last > before[-1] + SILENCE - 0.03
     log = read_log(path)
     assert log["time"][-1] >= a_second_before_the_last(told)[-1]
 

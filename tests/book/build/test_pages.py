@@ -77,8 +77,10 @@ CUT = """async () => {
 
 
 MATCHED = """(selectors) => selectors.filter((one) => document.querySelector(one))"""
-STATE = re.compile(r"::[\w-]+|:(?:before|after|hover|active|focus[\w-]*|checked|disabled)\b")
-"""What a selector asks of more than the document."""
+STATE = re.compile(
+    r":not\([^()]*\)|::[\w-]+|:(?:before|after|hover|active|focus[\w-]*|checked|disabled)\b"
+)
+"""What a selector asks of more than the document, or excludes."""
 
 
 def selectors(file: Path) -> set[str]:
