@@ -53,8 +53,8 @@ class ForceLayer:
     supply: float = 5.0
     amplification: float = 5.0
     voltage_noise: Number = 2.5e-3
-    gain_drift: float = 0.03
-    offset_drift: float = 0.02
+    gain_drift: Number = 0.03
+    offset_drift: Number = 0.02
     seating: Number = 0.02
     object_seating: Number = 0.062
     largest_count: int = 1023

@@ -1,0 +1,1 @@
+"""Drift of the force layer without the four weights before each run."""
