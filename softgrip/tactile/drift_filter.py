@@ -34,6 +34,20 @@ COUNT = 5.0 / 1023
 """V, of a converter of 10 bits and 5 V: half of it is the least noise that is believed."""
 
 
+@dataclass(frozen=True, eq=False)
+class Event:
+    """What is known after a measurement: time (s), state and covariance as of `DriftFilter`.
+
+    `moved` and `grown` are F and Q of the step that led to it, shapes (4, 4).
+    """
+
+    time: float
+    state: Floats
+    covariance: Floats
+    moved: Floats
+    grown: Floats
+
+
 @dataclass
 class DriftFilter:
     """Tracks gain and offset of one layer.
@@ -49,15 +63,16 @@ class DriftFilter:
         state: Rates and wanders of `DriftSize.prior`, shape (4,), at `time`.
         covariance: Of the state, shape (4, 4).
         refused: How many measurements were cut off, or moments taken for ones with a load.
+        events: The calibration, then each measurement.
 
     Raises:
         InvalidInputError: If the noise is not above zero.
 
     >>> curve = Curve(np.array([0.0, 0.5]), np.array([0.1, 2.1]), np.zeros(2))
-    >>> drift = DriftFilter(curve, noise=0.005)
+    >>> drift = DriftFilter(curve, noise=0.002)
     >>> drift.rest(3600.0, 0.13)
     True
-    >>> bool(0.1 < drift.corrected(0.13) < 0.105)
+    >>> bool(0.095 < drift.corrected(0.13) < 0.105)
     True
     """
 
@@ -70,10 +85,7 @@ class DriftFilter:
     ends: tuple[float, float] = ENDS
     time: float = field(default=-inf, init=False)
     refused: int = field(default=0, init=False)
-    events: list[tuple[float, Floats, Floats, Floats, Floats]] = field(
-        default_factory=list, init=False
-    )
-    """After each measurement: time, state, covariance, and F and Q since the one before."""
+    events: list["Event"] = field(default_factory=list, init=False)
     _kalman: Any = field(init=False)
     _finder: RestFinder = field(init=False)
     _taken: float = field(default=-inf, init=False)
@@ -88,6 +100,7 @@ class DriftFilter:
         self._kalman.x = np.zeros((4, 1))
         self._kalman.P = self.size.prior(self.noise)
         self.time = self.calibrated_at
+        self._keep(np.eye(4), np.zeros((4, 4)))
 
     @property
     def state(self) -> Floats:
@@ -134,8 +147,11 @@ class DriftFilter:
             self._kalman.update(seen, R=R, H=H)
         else:
             self.refused += 1
-        self.events.append((time, self.state.copy(), self.covariance.copy(), F, Q))
+        self._keep(F, Q)
         return inside
+
+    def _keep(self, F: Floats, Q: Floats) -> None:
+        self.events.append(Event(self.time, self.state.copy(), self.covariance.copy(), F, Q))
 
     def rest(self, time: float, voltage: float) -> bool:
         """Take a moment without load, and tell whether it was believed.
@@ -171,6 +187,9 @@ class DriftFilter:
             NotFiniteError: If one is NaN or infinite; nothing has changed.
             InvalidInputError: If time falls.
         """
+        if time < self.calibrated_at:
+            expected = f"a time from {self.calibrated_at} s on, the calibration's"
+            raise InvalidInputError("time", expected=expected, got=time)
         found = self._finder.push(time, voltage)
         if found and found.time - self._taken >= EVERY:
             self._taken = found.time
@@ -197,9 +216,12 @@ class DriftFilter:
         By Rauch, Tung and Striebel (1965). What does not wander has a covariance without an
         inverse; the pseudo-inverse does. Shapes (events, 4) and (events, 4, 4).
         """
-        _, states, covariances, F, Q = zip(*self.events, strict=True)
         found = self._kalman.rts_smoother(
-            np.array(states)[..., None], np.array(covariances), Fs=F, Qs=Q, inv=np.linalg.pinv
+            np.array([event.state for event in self.events])[..., None],
+            np.array([event.covariance for event in self.events]),
+            Fs=[event.moved for event in self.events],
+            Qs=[event.grown for event in self.events],
+            inv=np.linalg.pinv,
         )
         return found[0][..., 0], found[1]
 

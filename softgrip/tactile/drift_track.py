@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, one_number
 from softgrip.checks import record
 from softgrip.errors import InvalidInputError
 from softgrip.tactile.creep import Creep, fitted_creep
@@ -74,7 +74,8 @@ class TrackedDrift:
         time: s.
         voltage: What it would have been at the calibration, V.
         force: By the calibration, and without the memory if one was given, N.
-        deviation: Of the force, by what is not known of the drift alone, N.
+        deviation: Of the force, by what is not known of the drift alone, N; infinite where the
+            converter cut a reading off.
         gain, offset: Of the drift, 1 and V.
         rests: The moments without load that were found.
         refused: How many of those taken were not believed.
@@ -142,8 +143,8 @@ def track_drift(
     assert isinstance(model, PadModel)
     curve = Curve.of(model.readings)
     t, v = record(at_least=3, time=time, voltage=voltage)
-    _check(t, v, curve)
-    begun = float(t[0]) if calibrated_at is None else calibrated_at
+    begun = float(t[0]) if calibrated_at is None else one_number(calibrated_at=calibrated_at)[0]
+    _check(t, v, curve, begun)
     size, law = size or DriftSize(), law or Line()
     noise = max(noise_of(v) if noise is None else noise, COUNT / 2)
     drift = DriftFilter(curve, size, law, noise, begun, ends=ends)
@@ -154,17 +155,22 @@ def track_drift(
     if memory:
         rests = without_memory(rests, t, v, memory, curve)
     _run(drift, rests, list(weights))
-    gain, offset, variance = _at(drift, t, law, v, smooth=smooth)
+    age = (t - begun) / HOUR
+    states, spreads = _states(drift, t, smooth=smooth)
+    gain, offset = gain_and_offset(states, age)
     calibrated = np.asarray(law.calibrated(v, gain, offset))
-    slope = _slopes(model, curve, calibrated)
+    per_gain = np.asarray(law.per_gain(calibrated, gain))
+    H = np.stack([per_gain * age, age, per_gain, np.ones_like(age)], axis=1)
+    deviation = _slopes(model, curve, calibrated) * np.sqrt(
+        np.einsum("ni,nij,nj->n", H, spreads, H)
+    )
+    deviation[(v <= ends[0]) | (v >= ends[1])] = inf
     if memory:
         felt = memory.model.estimator.predict(calibrated[:, None])
         force = memory.creep.undone(t, felt)
     else:
         force = model.estimator.predict(calibrated[:, None])
-    return TrackedDrift(
-        t, calibrated, force, slope * np.sqrt(variance), gain, offset, tuple(rests), drift.refused
-    )
+    return TrackedDrift(t, calibrated, force, deviation, gain, offset, tuple(rests), drift.refused)
 
 
 def without_memory(
@@ -188,15 +194,16 @@ def without_memory(
     )
 
 
-def _check(time: Floats, voltage: Floats, curve: Curve) -> None:
+def _check(time: Floats, voltage: Floats, curve: Curve, begun: float) -> None:
     if (np.diff(time) < 0).any():
         raise InvalidInputError("time", expected="times that do not fall", got="one that does")
-    most = MOST * float(np.abs(curve.voltage).max())
-    if np.abs(voltage).max() > most:
-        raise InvalidInputError(
-            "voltage", expected=f"volts, as of the calibration, up to {most:g}",
-            got=float(np.abs(voltage).max()),
-        )  # fmt: skip
+    if begun > time[0]:
+        expected = f"up to {time[0]} s, where the record begins"
+        raise InvalidInputError("calibrated_at", expected=expected, got=begun)
+    most, largest = MOST * float(np.abs(curve.voltage).max()), float(np.abs(voltage).max())
+    if largest > most:
+        expected = f"volts, as of the calibration, up to {most:g}"
+        raise InvalidInputError("voltage", expected=expected, got=largest)
 
 
 def _run(drift: DriftFilter, rests: Sequence[Rest], weights: list[KnownWeight]) -> None:
@@ -214,51 +221,35 @@ def _run(drift: DriftFilter, rests: Sequence[Rest], weights: list[KnownWeight]) 
             drift.weigh(one.time, one.voltage, one.force)
 
 
-def _at(
-    drift: DriftFilter, time: Floats, law: DriftLaw, voltage: Floats, *, smooth: bool
-) -> tuple[Floats, Floats, Floats]:
-    """Return gain, offset, and the variance of the corrected voltage, V^2, at all times."""
-    age = (time - drift.calibrated_at) / HOUR
-    if age.min() < 0:
-        raise InvalidInputError(
-            "calibrated_at", expected=f"up to {time[0]} s, where the record begins",
-            got=drift.calibrated_at,
-        )  # fmt: skip
-    size, origin = drift.size, np.zeros((1, 4))
-    times = np.array([drift.calibrated_at, *(event[0] for event in drift.events)])
-    states = np.concatenate([origin, *(event[1][None] for event in drift.events)])
-    spreads = np.stack([size.prior(drift.noise), *(event[2] for event in drift.events)])
-    if smooth and drift.events:
-        # What came before the first event is as it was: its wander from the calibration on.
-        states[1:], spreads[1:] = drift.smoothed()
-    before = np.clip(np.searchsorted(times, time, side="right") - 1, 0, len(times) - 1)
-    after = np.minimum(before + 1, len(times) - 1)
-    since = (time - times[before]) / HOUR
-    kept = np.exp(-since / size.return_time)
-    spread = np.array([size.spread(hours) for hours in since.tolist()])
-    state, covariance = states[before], spreads[before]
-    factor = np.ones((len(time), 4))
-    factor[:, 2:] = kept[:, None]
-    state = state * factor
-    covariance = covariance * factor[:, :, None] * factor[:, None, :]
-    grown = np.zeros((len(time), 4))
-    grown[:, 2], grown[:, 3] = (
-        wander**2 * spread for wander in (size.gain_wander, size.offset_wander)
-    )
-    covariance = covariance + grown[:, :, None] * np.eye(4)
+def _states(drift: DriftFilter, time: Floats, *, smooth: bool) -> tuple[Floats, Floats]:
+    """Return the states at some times, shape (N, 4), and their covariances, (N, 4, 4)."""
+    size, times = drift.size, np.array([event.time for event in drift.events])
+    if smooth:
+        states, spreads = drift.smoothed()
+    else:
+        states = np.array([event.state for event in drift.events])
+        spreads = np.array([event.covariance for event in drift.events])
+    before = np.searchsorted(times, time, side="right") - 1
+    hours = (time - times[before]) / HOUR
+    # As `DriftSize.transition`, of all steps at once.
+    moved = np.ones((len(time), 4))
+    moved[:, 2:] = np.exp(-hours / size.return_time)[:, None]
+    grown = np.array([size.spread(step) for step in hours.tolist()])
+    wanders = np.diag([0.0, 0.0, size.gain_wander**2, size.offset_wander**2])
+    state = states[before] * moved
+    spread = spreads[before] * moved[:, :, None] * moved[:, None, :]
+    spread += grown[:, None, None] * wanders
     if smooth:
         # Between two events on a straight line, as a random walk is expected to lie.
-        between = (times[after] - times[before]) / HOUR
-        part = np.where(between > 0, since / np.where(between > 0, between, 1), 0)[:, None]
-        inner = (after > before) & (before > 0)
-        line = (1 - part) * states[before] + part * states[after]
-        state = np.where(inner[:, None], line, state)
-        ends = (1 - part[..., None]) * spreads[before] + part[..., None] * spreads[after]
-        covariance = np.where(inner[:, None, None], ends, covariance)
-    gain, offset = gain_and_offset(state, age)
-    slope = np.asarray(law.per_gain(law.calibrated(voltage, gain, offset), gain))
-    H = np.stack([slope * age, age, slope, np.ones_like(age)], axis=1)
-    return gain, offset, np.einsum("ni,nij,nj->n", H, covariance, H)
+        after = np.minimum(before + 1, len(times) - 1)
+        whole = (times[after] - times[before]) / HOUR
+        part = np.divide(hours, whole, out=np.zeros_like(hours), where=whole > 0)[:, None]
+        inside = after > before
+        line = states[before] + part * (states[after] - states[before])
+        state = np.where(inside[:, None], line, state)
+        ends = spreads[before] + part[..., None] * (spreads[after] - spreads[before])
+        spread = np.where(inside[:, None, None], ends, spread)
+    return state, spread
 
 
 def _slopes(model: PadModel, curve: Curve, voltage: Floats) -> Floats:
