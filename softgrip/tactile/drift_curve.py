@@ -29,7 +29,8 @@ class Curve:
 
     Attributes:
         force: N, of the known forces, shape (K,), rising, from 0; K >= 2.
-        voltage: V, the mean of each, shape (K,).
+        voltage: V, the mean of each, shape (K,); without load the least, as a layer that remembers
+            the weight before can only read more.
         scatter: V, one deviation of a reading of a force and its neighbours, shape (K,); 0 if none
             was read twice.
     """
@@ -60,6 +61,7 @@ class Curve:
             raise InvalidInputError(
                 "calibration", expected="voltages that rise with the force", got=mean.tolist()
             )
+        mean[0] = volts[which == 0, 0].min()
         squares = np.bincount(which, (volts[:, 0] - mean[which]) ** 2)
         scatter = np.zeros(known.size)
         for k in range(known.size):

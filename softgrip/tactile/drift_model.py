@@ -91,10 +91,10 @@ class DriftSize:
     def transition(self, hours: float) -> tuple[Floats, Floats]:
         """Return F and Q of the state over some hours, >= 0, shapes (4, 4)."""
         kept, spread = self.kept(hours), self.spread(hours)
-        return (
-            np.diag([1.0, 1.0, kept, kept]),
-            np.diag([0.0, 0.0, self.gain_wander**2 * spread, self.offset_wander**2 * spread]),
-        )
+        F, Q = np.eye(4), np.zeros((4, 4))
+        F[2, 2] = F[3, 3] = kept
+        Q[2, 2], Q[3, 3] = self.gain_wander**2 * spread, self.offset_wander**2 * spread
+        return F, Q
 
 
 def gain_and_offset(state: Floats, age: float | Floats) -> tuple[Floats, Floats]:

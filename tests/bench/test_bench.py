@@ -24,6 +24,7 @@ SMALL = {
     "kernel_regression": {"queries": 500, "other": 20, "repetitions": 1, "plain": 50},
     "board": {"seconds": 0.5, "count": 5, "stops": 2},
     "pad_reading": {"count": 50, "plain": 5, "repetitions": 1},
+    "drift": {"count": 50, "repetitions": 1},
     "twin": {"rigs_at_a_time": 2, "experiments": ("statics", "lifts")},
     "grippers": {"pairs": 4, "plain_pairs": 1, "growth": (2, 4, 8), "repetitions": 1},
 }

@@ -27,7 +27,7 @@ from softgrip.units import GRAM_FORCE
 
 FITTED, DRAWN = "fitted", "drawn"
 SESSIONS = {FITTED: 100, DRAWN: 200}
-FEWER = 40
+FEWER = 30
 """Sessions in each of the other settings."""
 FIRST_SEED = {FITTED: 2000, DRAWN: 3000}
 """No other seed was looked at while the method was made: those were below 100."""
