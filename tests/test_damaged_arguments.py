@@ -45,11 +45,18 @@ from softgrip.pump.elastance import ElastanceModel, NoiseLevels, Prior, transiti
 from softgrip.pump.noise import estimate_noise
 from softgrip.pump.printed_filter import open_loop_capacity, printed_filter, run_printed
 from softgrip.quantities import convert
+from softgrip.tactile.creep import Creep, fitted_creep
 from softgrip.tactile.drift import LinearDrift
+from softgrip.tactile.drift_curve import Curve, KnownWeight
+from softgrip.tactile.drift_filter import DriftFilter
+from softgrip.tactile.drift_law import Bridge
+from softgrip.tactile.drift_model import DriftSize
+from softgrip.tactile.drift_track import track_drift
 from softgrip.tactile.force import Weighing
 from softgrip.tactile.kind_evaluation import cross_validated, train_and_test
 from softgrip.tactile.own_pad import PadReadings
 from softgrip.tactile.pad_model import ForceSettings, KindSettings, PadModel
+from softgrip.tactile.rest_moments import RestFinder, noise_of
 
 T = np.arange(0, 5, 0.05)
 STEP = 1 - np.exp(-np.maximum(T - 0.5, 0)) * (1 + np.maximum(T - 0.5, 0))
@@ -68,6 +75,9 @@ MODEL = ElastanceModel(0.05, NOISE, Prior(0.0, 200.0, 1e9, 3e8))
 FINGER = SecondOrder(2.86, 0.7)
 VOLTS = np.random.default_rng(0).uniform(0, 4, (40, 3))
 KINDS = np.repeat(["point", "line"], 20)
+CREEP = Creep((0.1,), (2.0,))
+WEIGHED = PadReadings(("layer",), [[0.1], [1.0], [2.0]], [0.0, 0.2, 0.6])
+CURVE = Curve.of(WEIGHED)
 
 
 def measured(record):
@@ -162,6 +172,26 @@ CALLS = {
     "train_and_test": (partial(train_and_test, KINDS), {"seed": 0, "test": 0.2}),
     "LinearDrift": (LinearDrift.from_weights, {"calibrated": [0.1, 0.2, 0.3],
                                                "now": [0.1, 0.2, 0.4]}),
+    "Creep": (Creep, {"parts": [0.1, 0.2], "lags": [1.0, 20.0]}),
+    "Creep.felt": (CREEP.felt, {"time": T, "force": STEP}),
+    "Creep.undone": (CREEP.undone, {"time": T, "felt": STEP}),
+    "fitted_creep": (fitted_creep, {"time": T, "force": HELD, "voltage": CREEP.felt(T, HELD)}),
+    "Bridge": (Bridge, {"scale": 25.0, "balance": 0.05}),
+    "DriftSize": (DriftSize, {"gain_rate": 0.01, "offset_rate": 0.01, "gain_wander": 0.01,
+                              "offset_wander": 0.01, "return_time": 2.0}),
+    "noise_of": (noise_of, {"voltage": STEP}),
+    "RestFinder": (RestFinder, {"noise": 0.01, "rate": 0.1, "wander": 0.1, "length": 10.0}),
+    "RestFinder.push": (lambda time, voltage: RestFinder(0.01).push(time, voltage),
+                        {"time": 1.0, "voltage": 0.1}),
+    "KnownWeight": (KnownWeight, {"time": 1.0, "force": 0.2, "voltage": 1.0}),
+    "DriftFilter.rest": (lambda time, voltage: DriftFilter(CURVE).rest(time, voltage),
+                         {"time": 1.0, "voltage": 0.1}),
+    "DriftFilter.weigh": (lambda time, voltage, force: DriftFilter(CURVE).weigh(
+        time, voltage, force), {"time": 1.0, "voltage": 1.0, "force": 0.2}),
+    "DriftFilter.step": (lambda time, voltage: DriftFilter(CURVE).step(time, voltage),
+                         {"time": 1.0, "voltage": 0.1}),
+    "track_drift": (partial(track_drift, calibration=WEIGHED), {
+        "time": T, "voltage": STEP, "calibrated_at": 0.0, "noise": 0.01}),
     "Weighing": (Weighing, {"measured": 13.8, "deviation": 0.4, "true": 14.0, "times": 10}),
     "fitting.fit": (lambda young_modulus: fit_test(
         TEST, Fitting("engineering"), young_modulus=young_modulus), {"young_modulus": 1e5}),
@@ -302,6 +332,11 @@ TAKEN = {
     ("ludwick.fit", "young_modulus"): {"none"},
     ("first_loading", "zero"): {"none"},
     ("fit_sensor", "curve"): {"none"},
+    ("track_drift", "calibrated_at"): {"none"},
+    ("track_drift", "noise"): {"none"},
+    # A wander that never returns; and no other argument has as many.
+    ("DriftSize", "return_time"): {"infinity"},
+    ("noise_of", "voltage"): {"one more"},
 }
 """Damages that have a meaning, by call and argument."""
 

@@ -82,7 +82,8 @@ def conductance(felt: Floats, age: float | Floats, layer: ForceLayer) -> Floats:
     """Return the layer's conductance, 1/Ohm, for a felt force (N) at an age (h)."""
     rest, pressed = 1 / layer.rest_resistance, 1 / layer.pressed_resistance
     loaded: Floats = rest + (pressed - rest) * -np.expm1(-felt / layer.soft_force)
-    return loaded * (1 + layer.gain_drift * age)
+    drifted: Floats = loaded * (1 + layer.gain_drift * age)
+    return drifted
 
 
 def bridge_voltage(conductance: Floats, layer: ForceLayer) -> Floats:
@@ -95,7 +96,8 @@ def bridge_voltage(conductance: Floats, layer: ForceLayer) -> Floats:
 def layer_voltage(felt: Floats, age: float | Floats, layer: ForceLayer) -> Floats:
     """Return the amplified voltage without noise, V; arguments as of `conductance`."""
     bridge = bridge_voltage(conductance(felt, age, layer), layer)
-    return layer.amplification * bridge + layer.offset_drift * age
+    amplified: Floats = layer.amplification * bridge + layer.offset_drift * age
+    return amplified
 
 
 def read_counts(voltage: Floats, noise: Floats, layer: ForceLayer) -> Counts:

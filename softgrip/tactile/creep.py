@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import minimize_scalar
 from sklearn.isotonic import IsotonicRegression
 
-from softgrip.arrays import Floats, check_positive
+from softgrip.arrays import Floats, check_positive, floats
 from softgrip.checks import check_not_negative, record
 from softgrip.errors import InvalidInputError
 
@@ -42,7 +42,8 @@ class Creep:
     lags: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        if len(self.parts) != len(self.lags):
+        parts, lags = floats(parts=self.parts, lags=self.lags)
+        if parts.ndim != 1 or parts.shape != lags.shape:
             raise InvalidInputError(
                 "parts, lags", expected="as many lags as parts", got=(self.parts, self.lags)
             )

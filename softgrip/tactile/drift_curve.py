@@ -5,18 +5,25 @@ from math import sqrt
 
 import numpy as np
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, one_number
 from softgrip.errors import InvalidInputError
 from softgrip.tactile.own_pad import PadReadings
 
 
 @dataclass(frozen=True)
 class KnownWeight:
-    """A known force on the layer: when, s, how large, N, and the voltage then, V."""
+    """A known force on the layer: when, s, how large, N, and the voltage then, V.
+
+    Raises:
+        InvalidInputError: If one is no finite number.
+    """
 
     time: float
     force: float
     voltage: float
+
+    def __post_init__(self) -> None:
+        one_number(**vars(self))
 
 
 NEAR = 7
@@ -79,6 +86,7 @@ class Curve:
         Raises:
             InvalidInputError: If it lies beyond the calibration.
         """
+        (force,) = one_number(weight=force)
         if not self.force[0] <= force <= self.force[-1] * (1 + 1e-9):
             most = f"a force of up to {self.force[-1]:g} N, as calibrated"
             raise InvalidInputError("weight", expected=most, got=force)

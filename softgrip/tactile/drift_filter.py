@@ -13,13 +13,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from softgrip.arrays import Floats, check_positive, floats
-from softgrip.errors import InvalidInputError, NotFiniteError
+from softgrip.arrays import Floats, check_positive, floats, one_number
+from softgrip.checks import check_not_negative
+from softgrip.errors import InvalidInputError
 from softgrip.tactile.drift_curve import Curve
 from softgrip.tactile.drift_law import DriftLaw, Line
 from softgrip.tactile.drift_model import HOUR, DriftSize, gain_and_offset
 from softgrip.tactile.pad_model import TOP_COUNT
-from softgrip.tactile.rest_moments import RestFinder
+from softgrip.tactile.rest_moments import RestFinder, one_sample
 
 EVERY = 60.0
 """s between two moments without load that the filter takes: neighbours err alike."""
@@ -92,6 +93,8 @@ class DriftFilter:
 
     def __post_init__(self) -> None:
         check_positive(noise=self.noise)
+        check_not_negative(weight_deviation=self.weight_deviation)
+        one_number(noise=self.noise, calibrated_at=self.calibrated_at)
         # It brings SciPy's distributions and more along: only who filters waits for them.
         from filterpy.kalman import KalmanFilter
 
@@ -132,8 +135,7 @@ class DriftFilter:
 
     def _measured(self, time: float, calibrated: float, voltage: float, error: float, *,
                   gated: bool) -> bool:  # fmt: skip
-        if not (-inf < voltage < inf and -inf < time < inf):
-            raise NotFiniteError("time, voltage", got=(time, voltage))
+        time, voltage = one_sample(time, voltage)
         F, Q = self._moved(time)
         expected, H = self._seen(calibrated)
         R = np.array([[error**2]])
@@ -187,6 +189,7 @@ class DriftFilter:
             NotFiniteError: If one is NaN or infinite; nothing has changed.
             InvalidInputError: If time falls.
         """
+        time, voltage = one_sample(time, voltage)
         if time < self.calibrated_at:
             expected = f"a time from {self.calibrated_at} s on, the calibration's"
             raise InvalidInputError("time", expected=expected, got=time)

@@ -9,7 +9,7 @@ of the unloaded layer too, `Bridge`: then a moment without load tells something 
 from dataclasses import dataclass
 from typing import Protocol
 
-from softgrip.arrays import Number, check_positive, is_symbol
+from softgrip.arrays import Number, check_positive, is_symbol, one_number
 from softgrip.errors import InvalidInputError
 
 
@@ -74,6 +74,7 @@ class Bridge:
     def __post_init__(self) -> None:
         if is_symbol(self.balance):
             return
+        one_number(scale=self.scale, balance=self.balance)
         check_positive(scale=self.scale, balance=self.balance)
         if not self.balance < 1:
             raise InvalidInputError("balance", expected="a share below 1", got=self.balance)

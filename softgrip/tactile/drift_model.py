@@ -11,7 +11,7 @@ from math import exp, expm1, inf, isinf, sqrt
 
 import numpy as np
 
-from softgrip.arrays import Floats
+from softgrip.arrays import Floats, floats, one_number
 from softgrip.checks import check_not_negative
 from softgrip.errors import InvalidInputError
 
@@ -51,7 +51,10 @@ class DriftSize:
             gain_wander=self.gain_wander,
             offset_wander=self.offset_wander,
         )
-        if not self.return_time > 0:
+        rates = {name: value for name, value in vars(self).items() if name != "return_time"}
+        one_number(**rates)
+        (hours,) = floats(return_time=self.return_time)
+        if hours.ndim or not hours > 0:
             raise InvalidInputError("return_time", expected="hours > 0", got=self.return_time)
 
     def scaled(self, times: float) -> "DriftSize":

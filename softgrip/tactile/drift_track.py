@@ -137,16 +137,19 @@ def track_drift(
     >>> bool(abs(found.voltage - 0.1).max() < 0.005)
     True
     """
-    model = calibration
     if isinstance(calibration, PadReadings):
         model = PadModel(ForceSettings(), saturation=UNSATURATED).fit(calibration)
-    assert isinstance(model, PadModel)
+    elif isinstance(calibration, PadModel):
+        model = calibration
+    else:
+        expected = "PadReadings with forces, or a PadModel fitted to such"
+        raise InvalidInputError("calibration", expected=expected, got=calibration)
     curve = Curve.of(model.readings)
     t, v = record(at_least=3, time=time, voltage=voltage)
     begun = float(t[0]) if calibrated_at is None else one_number(calibrated_at=calibrated_at)[0]
     _check(t, v, curve, begun)
     size, law = size or DriftSize(), law or Line()
-    noise = max(noise_of(v) if noise is None else noise, COUNT / 2)
+    noise = max(noise_of(v) if noise is None else one_number(noise=noise)[0], COUNT / 2)
     drift = DriftFilter(curve, size, law, noise, begun, ends=ends)
     if not use_rests:
         rests = ()

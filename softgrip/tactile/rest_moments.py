@@ -9,14 +9,14 @@ for one without load, and its load for none.
 """
 
 from dataclasses import dataclass, field
-from math import inf, sqrt
+from math import inf, isfinite, sqrt
 from statistics import median
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from softgrip.arrays import check_positive, one_number
-from softgrip.checks import check_not_negative, record
+from softgrip.checks import check_not_negative, record, samples
 from softgrip.errors import InvalidInputError, NotFiniteError
 
 LENGTH = 10.0
@@ -53,6 +53,20 @@ def noise_of(voltage: ArrayLike) -> float:
     """
     (v,) = record(at_least=3, voltage=voltage)
     return float(np.median(np.abs(np.diff(v))) / (NORMAL * sqrt(2)))
+
+
+def one_sample(time: float, voltage: float) -> tuple[float, float]:
+    """Return a time and a voltage that are a finite number each.
+
+    Raises:
+        NotFiniteError: If one is none, or several.
+    """
+    if type(time) is type(voltage) is float and isfinite(time) and isfinite(voltage):
+        return time, voltage  # many times as fast
+    t, v = samples(time=time, voltage=voltage)
+    if t.ndim or v.ndim:
+        raise NotFiniteError("time, voltage", got=(time, voltage))
+    return float(t), float(v)
 
 
 @dataclass
@@ -95,8 +109,7 @@ class RestFinder:
             NotFiniteError: If one is NaN or infinite; nothing has changed.
             InvalidInputError: If time falls; nothing has changed.
         """
-        if not (-inf < time < inf and -inf < voltage < inf):
-            raise NotFiniteError("time, voltage", got=(time, voltage))
+        time, voltage = one_sample(time, voltage)
         if time < self._latest:
             raise InvalidInputError("time", expected=f"a time from {self._latest} s on", got=time)
         found = None
@@ -111,11 +124,11 @@ class RestFinder:
 
     def _ended(self) -> Rest | None:
         """Judge the moment that is over."""
-        samples, count = self._samples, len(self._samples)
-        if count < LEAST or max(samples) - min(samples) > WIDE * self.noise:
+        read, count = self._samples, len(self._samples)
+        if count < LEAST or max(read) - min(read) > WIDE * self.noise:
             return None
         half = count // 2
-        first, second, level = median(samples[:half]), median(samples[half:]), median(samples)
+        first, second, level = median(read[:half]), median(read[half:]), median(read)
         # Of a median: a quarter more than of a mean.
         if abs(first - second) > ABOVE * 1.25 * self.noise * sqrt(2 / half):
             return None

@@ -158,7 +158,6 @@ def test_log_of_a_pad_of_ones_own(tmp_path):
         ({"time": [0, 1]}, "shape"),
         ({"calibrated_at": 1.0}, "calibrated_at"),
         ({"weights": [KnownWeight(1.0, 50.0, 3.0)]}, "as calibrated"),
-        ({"weights": [KnownWeight(1.0, 0.5, np.nan)]}, "finite"),
         ({"weights": [KnownWeight(-10.0, 0.5, 3.0)]}, "time"),
     ],
 )

@@ -90,7 +90,9 @@ def draw_hours() -> Figure:
             one = row(method, layers)
             hourly = [getattr(one, f"hour_{k + 1}") / GRAM_FORCE for k in range(HOURS)]
             axes.plot(middle, hourly, color=colour, ls=dash, label=name)
-        axes.set(title=label, ylabel="error (gf)", ylim=(0, None))
+        axes.set(title=label, ylabel="error (gf)")
+    # Of both at once, when all is drawn.
+    panels[0].set_ylim(0, None)
     panels[-1].set_xlabel("time in the session (h)")
     drawn.legend(
         *panels[0].get_legend_handles_labels(), loc="outside lower center", fontsize=9, ncols=2
@@ -119,7 +121,7 @@ def draw_weights() -> Figure:
             color=ORANGE, marker="s", ls="none", capsize=3, label="text",
         )  # fmt: skip
         axes.axhline(printed("2.4-mean-accuracy"), color=GREY, ls="--", label="printed")
-        axes.set(title=label, ylabel="accuracy (%)", ylim=(55, 100))
+        axes.set(title=label, ylabel="accuracy (%)", ylim=(78, 100))
     panels[-1].set_xticks(places, [f"{count}" for count in SPREAD])
     panels[-1].set_xlabel("known weights in eight hours")
     panels[0].legend(loc="lower right", ncols=3)

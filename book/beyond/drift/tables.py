@@ -54,7 +54,7 @@ def memory_table() -> pd.DataFrame:
 def settings_table() -> pd.DataFrame:
     """Tabulate the error, gf, in all settings: median, and 95 % of the sessions."""
     columns = {"text": "text: a line, 4 at the start", **{
-        f"{count} weights": SPREADS[count] for count in (0, 1, 2, 4)
+        f"{count} weight{'s' * (count != 1)}": SPREADS[count] for count in (0, 1, 2, 4)
     }}  # fmt: skip
     return pd.DataFrame(
         {
