@@ -96,6 +96,22 @@ def test_smoothing_tells_of_a_wander_before_it_is_weighed():
     assert off(whole, force) < 0.7 * off(causal, force)
 
 
+def test_smoothed_drift_lies_on_a_line_between_two_weights():
+    """A random walk is expected there: without pauses nothing else is known of it."""
+    time, voltage, force, _ = session(0.0, 0.0)
+    late = len(time) - 5
+    weights = [KnownWeight(time[45], force[45], voltage[45]),
+               KnownWeight(time[late], force[late], voltage[late] + 0.2)]  # fmt: skip
+    size = DriftSize(gain_rate=0.0, offset_rate=0.0)
+    found = corrected(time, voltage, weights=weights, size=size, smooth=True, use_rests=False)
+    middle = (45 + late) // 2
+    part = (time[middle] - time[45]) / (time[late] - time[45])
+    for path in (found.gain, found.offset):
+        expected = (1 - part) * path[45] + part * path[late]
+        assert path[middle] == pytest.approx(expected, abs=1e-9)
+        assert abs(path[late] - path[45]) > 0.01
+
+
 def test_order_of_weights_does_not_matter():
     time, voltage, force, weight = session()
     other = KnownWeight(time[645], force[645], voltage[645])
