@@ -63,6 +63,7 @@ class FeedforwardProgram:
         points: Points a period at which the fingers are looked at, >= 1. Between the 10 of a period
             of 100 ms they are up to 0.05 % farther apart, and leave the band by 0.0002 of the
             target.
+        delays: By how much each finger answers late, s, whole numbers of points; none if empty.
 
     Raises:
         InvalidInputError: If a number is outside its range, or the target cannot be held.
@@ -81,9 +82,21 @@ class FeedforwardProgram:
     duration: float = 3.0
     period: float = 0.1
     points: int = 10
+    delays: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        check_fields(self, other=("gripper", "target"))
+        check_fields(self, other=("gripper", "target", "delays"))
+        late = np.asarray(self.delays, dtype=np.float64) * self.points / self.period
+        if late.size and (
+            late.shape != (len(self.gripper.fingers),)
+            or not (np.isfinite(late) & (late >= 0)).all()
+            or np.abs(late - np.rint(late)).max() > 1e-6
+        ):
+            raise InvalidInputError(
+                "delays",
+                expected=f"one a finger, multiples of {self.period / self.points:g} s",
+                got=self.delays,
+            )
         if project(self.gripper, self.target).share > 1e-6:
             gains = self.gripper.velocity_gains
             raise InvalidInputError("target", expected=f"a multiple of {gains}", got=self.target)
@@ -137,6 +150,9 @@ class FeedforwardProgram:
         found = simulate(GripperBatch.of(self.gripper), None, pulse, keep="trajectories").angles
         assert found is not None
         each = found[0, :, 1:] / np.array(self.target)[:, None]
+        for own, delay in zip(each, self.delays, strict=False):
+            if behind := round(delay * self.points / self.period):
+                own[:] = np.concatenate([np.zeros(behind), own[:-behind]])
         late = np.zeros((*each.shape, pulse.periods))
         for k in range(pulse.periods):
             start = k * pulse.points_a_period
