@@ -30,7 +30,7 @@ from softgrip.logs.repeated_steps import read_alike
 CONFIDENCE = 0.95
 LATEST = 0.6
 """s: the largest delay that is looked for."""
-GRID, FINE = 0.02, 0.001
+GRID, FINE = 0.04, 0.002
 """s: steps in which delays are tried, and to which an end of an interval is found."""
 STEP = 0.005
 """s: at which the answer of a finger is computed; straight between."""
@@ -172,6 +172,8 @@ def second_order(
     time: Floats, drive: Floats, natural_frequency: float, damping_ratio: float, *, late: float
 ) -> Floats:
     """Return the answer of a second-order system of unit gain, from rest, after a dead time.
+
+    As `dynamics.second_order.response`, many times a second.
 
     Args:
         time: s, even, shape (N,).

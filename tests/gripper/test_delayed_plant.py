@@ -1,4 +1,4 @@
-"""Fingers that answer late: against steps so fine that nothing is exact, and against limit cases."""
+"""Fingers that answer late: against steps so fine that nothing is exact, and limit cases."""
 
 import numpy as np
 import pytest

@@ -96,18 +96,18 @@ def run(belief, real, noise=0.0, duration=8.0, gripper=PRINTED):
 def test_a_known_delay_leaves_the_motion_as_it_is_and_makes_it_late():
     late, _ = run((0.3, 0.3), (0.3, 0.3))
     at_once, _ = run((0.0, 0.0), (0.0, 0.0))
-    assert late[:, 30:] == pytest.approx(at_once[:, :-30], abs=3e-3)  # iterations, not the law
+    assert late[:, 12:] == pytest.approx(at_once[:, :-12], abs=3e-3)  # iterations, not the law
 
 
 def test_no_command_keeps_fingers_together_better_than_the_certified_optimum():
     shares, commands = run((0.1, 0.1), (0.1, 0.1))
     out = np.abs(shares - 1).max(axis=0) > 0.05
-    settled = 0.01 * (np.flatnonzero(out)[-1] + 1) - 0.1
+    settled = 0.025 * (np.flatnonzero(out)[-1] + 1) - 0.1
     target = tuple(equal_targets().tolist())
     program = FeedforwardProgram(PRINTED, target, limit=LIMIT, band=0.05)
     least = program.settled_by(np.ceil(settled * 10) / 10).worst_sync
     apart = np.ptp(shares, axis=0).max()
-    assert least - 1e-6 < apart < 2 * least
+    assert least - 1e-6 < apart < 2.5 * least
     assert np.abs(commands).max() <= LIMIT
 
 
@@ -115,7 +115,7 @@ def test_no_command_keeps_fingers_together_better_than_the_certified_optimum():
 @pytest.mark.parametrize("wrong", [0.7, 1.3])
 def test_it_settles_with_a_delay_that_is_wrong_by_30_per_cent(delay, wrong):
     shares, _ = run((wrong * delay,) * 2, (delay,) * 2)
-    assert np.abs(shares[:, -100:] - 1).max() < 0.02
+    assert np.abs(shares[:, -40:] - 1).max() < 0.02
 
 
 def test_fingers_other_than_the_model_s_end_about_their_targets():

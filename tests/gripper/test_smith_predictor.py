@@ -45,12 +45,12 @@ def run(matrices, delay, duration=10.0):
     return made.angles[0, :, 0], made.commands[0, 0]
 
 
-@pytest.mark.parametrize("delay", [0.05, 0.13, 0.3])
+@pytest.mark.parametrize("delay", [0.05, 0.125, 0.3])
 def test_a_known_delay_leaves_the_motion_as_it_is_and_makes_it_late(delay):
     late = DelayedGripper(PRINTED, (delay, delay))
     angles, commands = run(smith_matrices(late, INVERSE, FAST), delay)
     at_once, sent = run(controller_matrices(PRINTED, INVERSE, FAST), 0.0)
-    shift = round(delay / 0.01)
+    shift = round(delay / 0.025)
     assert commands == pytest.approx(sent, abs=1e-8)
     assert angles[:, shift:] == pytest.approx(at_once[:, :-shift], abs=1e-8)
 
@@ -62,9 +62,9 @@ def test_it_settles_with_a_delay_that_is_wrong_by_30_per_cent(ahead, back, delay
     belief = DelayedGripper(PRINTED, (delay, delay)).scaled(wrong)
     angles, _ = run(smith_matrices(belief, INVERSE, ahead, feedback_filter=back), delay)
     shares = angles / equal_targets()[:, None]
-    assert np.abs(shares[:, -100:] - 1).max() < 0.02
+    assert np.abs(shares[:, -40:] - 1).max() < 0.02
 
 
 def test_the_printed_loop_does_not_settle_with_so_much_delay():
     angles, _ = run(controller_matrices(PRINTED, INVERSE, FAST), 0.3)
-    assert np.abs(angles[:, -100:] / equal_targets()[:, None] - 1).max() > 0.1
+    assert np.abs(angles[:, -40:] / equal_targets()[:, None] - 1).max() > 0.1

@@ -26,7 +26,7 @@ COMMANDS = 4
 """Commands on their way that all models keep, so that they are of one size: 400 ms."""
 LIKELY, LONGEST = 0.8, 2.8
 """s: where the search for the earliest settling begins, and the latest that is tried."""
-LOOKED_AT = 5
+LOOKED_AT = 4
 """Points of a period at which the best feedforward looks at the fingers."""
 FAST, SLOW = "4.8/s", "2/s"
 
@@ -80,13 +80,18 @@ def _mean_angle(known: Known, targets: Floats) -> BatchLaw:
 def best_feedforward(plant: DelayedGripper, target: Floats) -> OptimalFeedforward:
     """Return the command that settles the known fingers as early as any can, most together.
 
-    A delay that all have is left out: it moves no command.
+    A delay that all have is left out: it moves no command. Of fingers without other differences of
+    their delays only the first two are looked at: the rest lie between them, and stay there.
 
     Raises:
         InvalidInputError: If nothing settles within `LONGEST`.
     """
     late = tuple(round(own - plant.transport, 9) for own in plant.delays)
-    return _earliest(plant.gripper, late, tuple(target.tolist()))
+    gripper, goal = plant.gripper, tuple(target.tolist())
+    if not any(late) and len(late) > 2:
+        gripper, late = Gripper(gripper.fingers[:2]), late[:2]
+        goal = tuple((gripper.velocity_gains * goal[0] / gripper.velocity_gains[0]).tolist())
+    return _earliest(gripper, late, goal)
 
 
 @lru_cache(maxsize=4096)
