@@ -14,6 +14,7 @@ which wander slowly: as many as angles are measured, so that at rest nothing is 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, final
@@ -157,6 +158,7 @@ def predictive_law(
     period: float = PERIOD,
     weights: Weights | None = None,
     commands: int = 1,
+    widths: Sequence[int] | None = None,
 ) -> PredictiveLaw:
     """Design the controller.
 
@@ -167,6 +169,7 @@ def predictive_law(
         period: Time between commands, s, > 0.
         weights: `Weights`; None for the usual ones.
         commands: As of `delayed_model`.
+        widths: For how many periods each move is held; None for short ones at first, then longer.
 
     Raises:
         InvalidInputError: If a number is outside its range.
@@ -185,7 +188,8 @@ def predictive_law(
         rate_wander=own.rate_wander * period * np.abs(goal) / gains,
         offset_wander=own.offset_wander,
     )
-    widths = _widths(round(own.horizon / period))
+    if widths is None:
+        widths = _widths(round(own.horizon / period))
     steps = sum(widths) + model.commands
     free, forced = _answers(model, goal, steps)
     # Commands after the last move are its own: the block's columns added up.
@@ -296,6 +300,8 @@ class PredictiveController:
             raise InvalidInputError(
                 "measured", expected=f"shape ({model.fingers},) or (fingers, runs)", got=y.shape
             )
+        if y.shape[1:] == (1,):
+            return self.update(y[:, 0])[None]
         before = self._predicted
         if y.ndim == 2 and before.ndim == 1:
             before = np.broadcast_to(before[:, None], (len(before), y.shape[1]))

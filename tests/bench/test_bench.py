@@ -8,7 +8,8 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from tests.bench import elastica, elastica_runs, growth, rig
+from softgrip.gripper.predictive import PredictiveController
+from tests.bench import delay, elastica, elastica_runs, growth, rig
 from tests.bench.__main__ import SUBJECTS
 from tests.bench.entry import Entry, entry, interleaved, table, write
 from tests.bench.fingers import ALLOWED, batch, choose_step, plain, responses
@@ -26,6 +27,7 @@ SMALL = {
     "pad_reading": {"count": 50, "plain": 5, "repetitions": 1},
     "drift": {"count": 50, "repetitions": 1},
     "twin": {"rigs_at_a_time": 2, "experiments": ("statics", "lifts")},
+    "delay": {"count": 50, "others": 3},
     "grippers": {"pairs": 4, "plain_pairs": 1, "growth": (2, 4, 8), "repetitions": 1},
 }
 KINDS = {
@@ -51,6 +53,21 @@ def test_subject_gives_entries_that_survive_json(subject, tmp_path):
         assert all(isinstance(line[key], kind) for key, kind in KINDS.items())
         assert np.isfinite([line["value"], line["ratio"] or 0.0]).all()
     assert all(one.name in table(found) for one in found)
+
+
+@pytest.mark.parametrize(
+    ("by", "needs"), [(delay.by_ipopt, "casadi"), (delay.by_do_mpc, "do_mpc")]
+)
+@pytest.mark.filterwarnings("ignore")
+def test_what_the_predictive_step_is_timed_against_solves_the_same_problem(by, needs):
+    pytest.importorskip(needs)
+    law = delay.problem()
+    _, states = delay.states_on_the_way(law, 12)
+    other, loop = by(law), PredictiveController(law)
+    for state in states:
+        g = law.by_state @ state + law.constant
+        # Interior-point solvers stop short of a bound by some millionths of the limit.
+        assert other(state) == pytest.approx(float(law.limit * loop._one(g)), abs=2e-3)
 
 
 def test_schema_is_that_of_the_entry():

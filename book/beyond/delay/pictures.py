@@ -106,7 +106,9 @@ def draw_settling() -> Figure:
                 color=LINES[method][0], ls=dash, marker=LINES[method][2], ms=4,
                 label=f"{method}, {wrong:+d} %" if wrong else method,
             )  # fmt: skip
-    left.set(xlabel="delay (ms)", ylabel="settled after (s)", title="(a) delay known", ylim=(0, 6.2))
+    left.set(
+        xlabel="delay (ms)", ylabel="settled after (s)", title="(a) delay known", ylim=(0, 6.2)
+    )
     right.set(xlabel="delay (ms)", title="(b) taken wrongly")
     left.legend(fontsize=7.5, loc="upper left")
     right.legend(fontsize=7.5, loc="upper left")

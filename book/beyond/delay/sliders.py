@@ -57,9 +57,7 @@ def late_step(delay: Number, error: Number, bandwidth: Number) -> dict[str, Any]
         filtered, command, apart = taken(left, 1, 3)[0], next(left), next(left)
         bodies = taken(left, 2, 5)  # the real fingers, and those of the model
         pasts = taken(left, 4, KEPT)  # of two fingers each
-        angles = [
-            [g * q for g, q in zip(gains, body[1::2], strict=True)] for body in bodies
-        ]
+        angles = [[g * q for g, q in zip(gains, body[1::2], strict=True)] for body in bodies]
         now = [angle for body in angles for angle in body]
         pasts = [(new, *past[:-1]) for new, past in zip(now, pasts, strict=True)]
         late = [
