@@ -124,7 +124,7 @@ class LateMotion:
     """Runs of some rigs.
 
     Attributes:
-        time: s, shape (N,), `POINTS` a period.
+        time: s, shape (N,), some points a period.
         angles: The true ones, late as they are, rad, shape (rigs, fingers, runs, N).
         commands: What the motor did from each period on, shape (rigs, runs, periods).
         period: s.
@@ -144,58 +144,60 @@ def run_late(
     *,
     limit: float,
     period: float = PERIOD,
+    points: int = POINTS,
 ) -> LateMotion:
     """Run laws on rigs at rest.
 
     Args:
         fingers: Of each rig, as they are in each run: equally many runs and fingers.
-        delays: s, shape (rigs, fingers), whole numbers of ``period / POINTS``.
+        delays: s, shape (rigs, fingers), whole numbers of ``period / points``.
         law: Of the rigs.
         noise: Of what is measured as each period begins, rad, shape (rigs, fingers, runs, periods).
         limit: The motor's, > 0.
         period: s, > 0.
+        points: At which fingers are looked at in a period, >= 1.
 
     Raises:
         InvalidInputError: If shapes do not fit, or a delay is none of these.
     """
-    check_positive(limit=limit, period=period)
+    check_positive(limit=limit, period=period, points=points)
     shape = (len(fingers), fingers[0].fingers, fingers[0].count)
-    late = delays * POINTS / period
+    late = delays * points / period
     if noise.shape[:3] != shape or delays.shape != shape[:2]:
         raise InvalidInputError(
             "noise, delays", expected=f"shapes {(*shape, 'periods')} and {shape[:2]}",
             got=(noise.shape, delays.shape),
         )  # fmt: skip
     if not ((late >= 0).all() and np.abs(late - np.rint(late)).max() < 1e-6):
-        raise InvalidInputError("delays", expected=f"multiples of {period / POINTS:g} s >= 0",
+        raise InvalidInputError("delays", expected=f"multiples of {period / points:g} s >= 0",
                                 got=delays)  # fmt: skip
     behind: NDArray[np.int64] = np.rint(late).astype(np.int64)
     damping, stiffness, gain = (
         np.stack([getattr(one, name).T for one in fingers])
         for name in ("damping", "stiffness", "gain")
     )
-    motion = held_motion(damping, stiffness, gain, period / POINTS, POINTS)
+    motion = held_motion(damping, stiffness, gain, period / points, points)
     periods = noise.shape[-1]
-    angles = np.zeros((*shape, periods * POINTS + 1))
+    angles = np.zeros((*shape, periods * points + 1))
     commands = np.zeros((shape[0], shape[2], periods))
     state = np.zeros((*shape, 4))
     rig, finger = np.indices(shape[:2])
     for k in range(periods):
-        seen = k * POINTS - behind
+        seen = k * points - behind
         measured = angles[rig, finger, :, np.maximum(seen, 0)] + noise[..., k]
         sent = np.clip(law.update(measured.swapaxes(1, 2)), -limit, limit)
         commands[..., k] = sent
         state[..., 3] = sent[:, None]
-        points = np.einsum("rfsi,rfsip->rfsp", state, motion.angle)
-        angles[..., k * POINTS + 1 : (k + 1) * POINTS + 1] = points
+        moved = np.einsum("rfsi,rfsip->rfsp", state, motion.angle)
+        angles[..., k * points + 1 : (k + 1) * points + 1] = moved
         state[..., 1] = np.einsum("rfsi,rfsi->rfs", state, motion.rate)
-        state[..., 0] = points[..., -1]
+        state[..., 0] = moved[..., -1]
         state[..., 2] += period * sent[:, None]
     for r, f in np.ndindex(shape[:2]):
         if steps := int(behind[r, f]):
             angles[r, f, :, steps:] = angles[r, f, :, :-steps].copy()
             angles[r, f, :, :steps] = 0.0
-    time = period / POINTS * np.arange(periods * POINTS + 1)
+    time = period / points * np.arange(periods * points + 1)
     return LateMotion(time, angles, commands, period)
 
 

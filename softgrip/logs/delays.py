@@ -22,6 +22,7 @@ import scipy
 from softgrip.arrays import Floats
 from softgrip.checks import takes_numbers
 from softgrip.dynamics.scatter import dependence
+from softgrip.dynamics.second_order import free_motion
 from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.logs.fingers import fingers_of
 from softgrip.logs.gaps import check_even
@@ -108,7 +109,9 @@ def bending_delay(time: Floats, motor_angle: Floats, angle: Floats) -> Delay:
     def left(late: float) -> Floats:
         tried = known[-1:] or starts
         found = [
-            scipy.optimize.least_squares(residual, x, args=(late,), bounds=bounds, max_nfev=40)
+            scipy.optimize.least_squares(
+                residual, x, args=(late,), bounds=bounds, max_nfev=40, ftol=1e-6, xtol=1e-6
+            )
             for x in tried
         ]
         best = min(found, key=lambda one: float(one.cost))
@@ -126,6 +129,8 @@ def pressure_delay(time: Floats, motor_angle: Floats, pressure: Floats, angles: 
         time, motor_angle: As of `bending_delay`.
         pressure: Gauge, Pa, shape (N,).
         angles: Of all fingers, rad, shape (fingers, N): by bending they take up air.
+
+    A push should last for many samples. With a few only, a delay looks like a line that is bent.
     """
     time, motor_angle, pressure = _checked(time, motor_angle, pressure)
     late_angles = np.atleast_2d(angles)
@@ -184,9 +189,13 @@ def second_order(
     parts = max(1, round(float(time[1] - time[0]) / STEP))
     fine = np.linspace(time[0], time[-1], (time.size - 1) * parts + 1)
     w, z = natural_frequency, damping_ratio
-    system = ([w * w], [1.0, 2 * z * w, w * w])
-    top, low, _ = scipy.signal.cont2discrete(system, float(fine[1] - fine[0]), "foh")
-    moved = scipy.signal.lfilter(top.ravel(), low, np.interp(fine, time, drive) - drive[0])
+    step = float(fine[1] - fine[0])
+    c, s = free_motion(step * np.arange(1.0, 4.0), w, z)
+    # What is a ramp between the times is met exactly: from the answer to a ramp at three times.
+    ramp = step * np.arange(1.0, 4.0) - 2 * z / w + (c + z * w * s) * (2 * z / w) - s
+    low = np.array([1.0, -2 * c[0], np.exp(-2 * z * w * step)])
+    top = np.convolve(np.convolve(low, [1.0, -2.0, 1.0]), ramp)[:3] / step
+    moved = scipy.signal.lfilter(top, low, np.interp(fine, time, drive) - drive[0])
     return np.interp(time - late, fine, np.asarray(moved), left=0.0) + drive[0]
 
 

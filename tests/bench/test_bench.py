@@ -55,9 +55,7 @@ def test_subject_gives_entries_that_survive_json(subject, tmp_path):
     assert all(one.name in table(found) for one in found)
 
 
-@pytest.mark.parametrize(
-    ("by", "needs"), [(delay.by_ipopt, "casadi"), (delay.by_do_mpc, "do_mpc")]
-)
+@pytest.mark.parametrize(("by", "needs"), [(delay.by_ipopt, "casadi"), (delay.by_do_mpc, "do_mpc")])
 @pytest.mark.filterwarnings("ignore")
 def test_what_the_predictive_step_is_timed_against_solves_the_same_problem(by, needs):
     pytest.importorskip(needs)

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from book.beyond.delay.kept import cell
 from book.beyond.delay.methods import METHODS
-from book.beyond.delay.sweep import DELAYS, FINGERS
+from book.beyond.delay.sweep import DELAYS, FINGERS, Cell
 from book.chapter_6.controllers import own_model, target_angles
 from book.companion.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, sheet
 from softgrip.arrays import Floats
@@ -29,7 +29,7 @@ LINES: dict[str, tuple[str, str, str]] = {
     "predictive": (VERMILION, "-", "D"),
     "learned": (GREY, "-", "*"),
 }
-"""Colour, dash and mark of each method that is drawn. The filtered predictor stands in the table."""
+"""Colour, dash and mark of each method drawn; the filtered predictor stands in the table."""
 RESPONSES = ("printed, 4.8/s", "printed, 2/s", "Smith, 2/s", "predictive")
 DELAY = 0.3
 """Of the responses, s."""
@@ -70,7 +70,7 @@ def draw_responses() -> Figure:
     return drawn
 
 
-def _curve(axes: Axes, method: str, measure: str, x: Sequence[float], cells: Sequence) -> None:
+def _curve(axes: Axes, method: str, x: Sequence[float], cells: Sequence[Cell]) -> None:
     colour, dash, mark = LINES[method]
     low, middle, high = np.array([(one.low, one.value, one.high) for one in cells]).T
     axes.fill_between(x, low, high, color=colour, alpha=0.18, lw=0)
@@ -81,9 +81,9 @@ def draw_apart() -> Figure:
     """Draw how far fingers are apart over the delay, and over their number, by method."""
     drawn, (left, right) = sheet(3.8, 1, 2)
     for method in LINES:
-        _curve(left, method, "apart", DELAYS, [cell(method, "apart", d) for d in DELAYS])
+        _curve(left, method, DELAYS, [cell(method, "apart", d) for d in DELAYS])
         over = [cell(method, "apart", DELAYS[-1], fingers=n) for n in FINGERS]
-        _curve(right, method, "apart", FINGERS, over)
+        _curve(right, method, FINGERS, over)
     left.set(xlabel="delay (ms)", ylabel="apart on the way (deg)", title="(a) two fingers")
     right.set(xlabel="fingers", xticks=FINGERS, title=f"(b) {DELAYS[-1]} ms")
     right.legend(fontsize=7.5, loc="lower right")
@@ -96,7 +96,7 @@ def draw_settling() -> Figure:
     """Draw when fingers have settled over the delay, and with a delay that is taken wrongly."""
     drawn, (left, right) = sheet(3.6, 1, 2, sharey=True)
     for method in LINES:
-        _curve(left, method, "settling", DELAYS, [cell(method, "settling", d) for d in DELAYS])
+        _curve(left, method, DELAYS, [cell(method, "settling", d) for d in DELAYS])
     for method in ("Smith, 2/s", "predictive"):
         for wrong, dash in ((-30, ":"), (0, "-"), (30, "--")):
             found = [cell(method, "settling", d, wrong=wrong) for d in DELAYS[1:]]
@@ -107,7 +107,7 @@ def draw_settling() -> Figure:
                 label=f"{method}, {wrong:+d} %" if wrong else method,
             )  # fmt: skip
     left.set(
-        xlabel="delay (ms)", ylabel="settled after (s)", title="(a) delay known", ylim=(0, 6.2)
+        xlabel="delay (ms)", ylabel="settled after (s)", title="(a) delay known", ylim=(0, 9.5)
     )
     right.set(xlabel="delay (ms)", title="(b) taken wrongly")
     left.legend(fontsize=7.5, loc="upper left")

@@ -31,6 +31,8 @@ TRAINING_SEED = 7_000_001
 TRAINING_RIGS, POPULATION, GENERATIONS, WIDTH = 64, 16, 200, 0.3
 APART_COST = 20.0
 """s of being off the target that a difference of one whole target counts as."""
+LOOKED_AT = 10
+"""Points of a period."""
 TRAVEL_COST = 0.005
 """s by rad: what the motor's travel counts as, without which policies chatter."""
 
@@ -121,7 +123,7 @@ def costs(candidates: Floats, delay: float, *, seed: int = TRAINING_SEED) -> Flo
     law = PolicyLaws(np.repeat(candidates, TRAINING_RIGS, axis=0)[None], known, targets)
     motion = run_late(
         [every], np.full((1, 2), delay), law, np.tile(2 * DEG * noise, (1, 1, count, 1)),
-        limit=SPEED_LIMIT,
+        limit=SPEED_LIMIT, points=LOOKED_AT,
     )  # fmt: skip
     found = late_measures(motion, targets)
     each = found.missed + APART_COST * found.apart / targets.mean() + TRAVEL_COST * found.travel
