@@ -278,7 +278,7 @@ class PredictiveController:
     def reset(self) -> None:
         """Forget the past: at rest at an angle of 0."""
         self._predicted: Floats = np.zeros(len(self.law.model.A))
-        self._moves: Floats | None = None
+        self._moves: casadi.DM | None = None
         self._start: tuple[Floats, Floats] | None = None
 
     def update(self, measured: ArrayLike) -> Floats:

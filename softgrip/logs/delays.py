@@ -157,7 +157,9 @@ def read_delays(paths: Sequence[Path | str]) -> GripperDelays:
     logs = read_alike(paths)
     for path, log in zip(paths, logs, strict=True):
         if lacking := [name for name in ("command", "angle") if name not in log.columns]:
-            raise DataFileError(path, expected=f"a column {lacking[0]!r}", got=[*log.columns])
+            raise DataFileError(
+                path, expected=f"a column {lacking[0]!r}", got=", ".join(log.columns)
+            )
     time = logs[0]["time"]
     period = float((time[-1] - time[0]) / (time.size - 1))
     # A row tells the command that was held until its time.
@@ -196,7 +198,7 @@ def second_order(
     low = np.array([1.0, -2 * c[0], np.exp(-2 * z * w * step)])
     top = np.convolve(np.convolve(low, [1.0, -2.0, 1.0]), ramp)[:3] / step
     moved = scipy.signal.lfilter(top, low, np.interp(fine, time, drive) - drive[0])
-    return np.interp(time - late, fine, np.asarray(moved), left=0.0) + drive[0]
+    return np.asarray(np.interp(time - late, fine, moved, left=0.0) + drive[0])
 
 
 def _checked(time: Floats, motor_angle: Floats, output: Floats) -> tuple[Floats, Floats, Floats]:

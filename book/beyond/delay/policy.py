@@ -116,9 +116,10 @@ def costs(candidates: Floats, delay: float, *, seed: int = TRAINING_SEED) -> Flo
     drawn = draw_grippers(nominal, TRAINING_RIGS, seed=seed)
     count, periods = len(candidates), round(OPEN_LOOP_DURATION / PERIOD)
     noise = np.random.default_rng((seed, 2)).standard_normal((1, 2, TRAINING_RIGS, periods))
-    every = GripperBatch(
-        *(np.tile(getattr(drawn, name), (count, 1)) for name in ("damping", "stiffness", "gain"))
+    damping, stiffness, gain = (
+        np.tile(one, (count, 1)) for one in (drawn.damping, drawn.stiffness, drawn.gain)
     )
+    every = GripperBatch(damping, stiffness, gain)
     known = [DelayedGripper(nominal, (delay, delay))]
     law = PolicyLaws(np.repeat(candidates, TRAINING_RIGS, axis=0)[None], known, targets)
     motion = run_late(
@@ -139,7 +140,8 @@ def trained(delay: float) -> Policy:
         drawn = np.array(strategy.ask())
         strategy.tell(list(drawn), costs(drawn, delay).tolist())
     best = np.asarray(strategy.result.xfavorite)
-    return Policy(delay, *best.tolist(), float(costs(best[None], delay)[0]))
+    numbers: list[float] = [delay, *best.tolist(), float(costs(best[None], delay)[0])]
+    return Policy(*numbers)
 
 
 def made() -> Iterator[Policy]:

@@ -72,7 +72,7 @@ def made() -> Iterator[RigRow]:
     own = ("spread.gripper_stiffness", "spread.gripper_damping", "sensors.angle_noise")
     rest = np.stack([lab[name] for name in own], axis=1)
     for rig, (usable, numbers) in enumerate(
-        zip(found.usable.all(axis=1), np.hstack([each, rest]).tolist(), strict=True)
+        zip(np.all(found.usable, axis=1).tolist(), np.hstack([each, rest]).tolist(), strict=True)
     ):
         if usable:
             yield RigRow(rig, *numbers)

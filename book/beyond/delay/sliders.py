@@ -59,7 +59,7 @@ def late_step(delay: Number, error: Number, bandwidth: Number) -> dict[str, Any]
         pasts = taken(left, 4, KEPT)  # of two fingers each
         angles = [[g * q for g, q in zip(gains, body[1::2], strict=True)] for body in bodies]
         now = [angle for body in angles for angle in body]
-        pasts = [(new, *past[:-1]) for new, past in zip(now, pasts, strict=True)]
+        pasts = [[new, *past[:-1]] for new, past in zip(now, pasts, strict=True)]
         late = [
             sum(weight * old for weight, old in zip(hats[k // 2], past, strict=True))
             for k, past in enumerate(pasts)

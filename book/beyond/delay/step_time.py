@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from time import thread_time_ns
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from book.beyond.delay.methods import best_feedforward
 from book.beyond.delay.policy import PolicyLaws, policy_for
@@ -51,9 +52,9 @@ class _OneRun:
     def __init__(self, law: PolicyLaws) -> None:
         self.law = law
 
-    def update(self, measured: Floats) -> Floats:
+    def update(self, measured: ArrayLike) -> Floats:
         """Return the command, shape (1,), from angles of shape (fingers, 1)."""
-        return np.asarray(self.law.update(measured.T[None])[0])
+        return np.asarray(self.law.update(np.asarray(measured).T[None])[0])
 
 
 def predictive_controller(plant: DelayedGripper) -> PredictiveController:
@@ -83,7 +84,7 @@ def controllers(plant: DelayedGripper) -> dict[str, Callable[[], RigController]]
         "Smith, 2/s": lambda: smith_controller(plant, "2/s", "2/s"),
         "filtered Smith": lambda: smith_controller(plant, "4.8/s", "2/s"),
         "predictive": lambda: predictive_controller(plant),
-        "learned": lambda: _OneRun(PolicyLaws([policy_for(plant)], [plant], target[None])),  # type: ignore[dict-item]
+        "learned": lambda: _OneRun(PolicyLaws([policy_for(plant)], [plant], target[None])),
     }
 
 
