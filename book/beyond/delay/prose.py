@@ -2,6 +2,8 @@
 
 from collections.abc import Callable
 
+import numpy as np
+
 from book.beyond.delay import full_rig, policy, step_time, sweep, tasks
 from book.beyond.delay.kept import cell, delays_of_logs
 from book.beyond.delay.pictures import DELAY
@@ -44,6 +46,11 @@ def _step(method: str) -> step_time.StepTime:
     return next(one for one in step_time.KEPT.read() if one.method == method)
 
 
+def _least_settled() -> float:
+    """Return the least share of runs that settle with a delay that is taken wrongly."""
+    return min(one.value for one in sweep.KEPT.read() if one.wrong and one.measure == "settled")
+
+
 WORDS: dict[str, Callable[[], str]] = {
     "left_delay": lambda: _span(delays_of_logs().whole[0]),
     "right_delay": lambda: _span(delays_of_logs().whole[1]),
@@ -59,6 +66,7 @@ WORDS: dict[str, Callable[[], str]] = {
     "band": lambda: f"{100 * BAND:g}",
     "own_share": lambda: f"{100 * sweep.APART:g}",
     "confidence": lambda: f"{100 * CONFIDENCE:g}",
+    "wrong_settled": lambda: f"{np.floor(1000 * _least_settled()) / 10:g}",
     "wrong": lambda: f"{sweep.WRONG[1]}",
     "printed_apart_0": lambda: _value(PRINTED, "apart", 0),
     "printed_apart": lambda: _value(PRINTED, "apart"),
