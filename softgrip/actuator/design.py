@@ -15,7 +15,7 @@ from softgrip.quantities import fields_in_si
 from softgrip.units import MM, MPa
 
 Range = tuple[float, float]
-Combined = Literal["sum", "product"]
+Combined = Literal["sum", "product", "torque"]
 DIMENSIONS = ("top", "bottom", "width", "wall")
 
 SCRIPT_POWER, SCRIPT_MASS = 1.0, 0.36
@@ -112,7 +112,7 @@ class DesignProblem:
         torque_scale, angle_scale: What T and theta are divided by, N m and rad (Section 3.3).
         bounds: Of the dimensions.
         band: Of the natural frequency, or None.
-        combined: The sum of Eq. (3.17), or the product of torque and angle.
+        combined: The sum of Eq. (3.17), the product of torque and angle, or the torque alone.
     """
 
     pressure: float = 0.15 * MPa
@@ -179,7 +179,9 @@ class DesignProblem:
 
 
 def combine(combined: Combined, torque: Number, angle: Number) -> Number:
-    """Return the sum or the product of ``T / T_0`` and ``theta / theta_0``."""
+    """Return the sum or the product of ``T / T_0`` and ``theta / theta_0``, or the first alone."""
+    if combined == "torque":
+        return torque
     return torque + angle if combined == "sum" else torque * angle
 
 

@@ -4,18 +4,26 @@ Example::
 
   softgrip design --pressure "80 kPa" --material "Dragon Skin 20" --length "80 mm" \
     --top "10 mm" "16 mm" --width "15 mm" "22 mm" --frequency 0.4 0.8 --mass "100 g"
+  softgrip design --material "Dragon Skin 20" --rubber "25 g" --stl mould
   softgrip design --json
 """
 
 import json
 from argparse import ArgumentParser, Namespace
 from dataclasses import asdict, fields
+from pathlib import Path
 
 from softgrip.actuator.certificate import CertifiedDesign, certified_design
 from softgrip.actuator.design import Bounds, DesignProblem, FrequencyBand
+from softgrip.actuator.limits import DRAGON_SKIN_20, LimitedProblem, Limits
+from softgrip.actuator.limits_certificate import LimitedDesign, best_within
+from softgrip.actuator.mould import write_mould
+from softgrip.actuator.section import Section
+from softgrip.actuator.size import CHAMBERS, Layout, air_volume, check_layout, finger_mass
 from softgrip.commands.quantity import quantity
 from softgrip.errors import InvalidInputError
-from softgrip.units import DEG, MM
+from softgrip.materials.densities import density
+from softgrip.units import DEG, ML, MM
 
 OF_PROBLEM = {
     "pressure": 'held, such as "80 kPa"',
@@ -47,6 +55,19 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="natural frequency, rad/s",
     )
     parser.add_argument("--mass", type=quantity, help='that swings, such as "100 g"')
+    parser.add_argument("--chambers", type=int, default=CHAMBERS, help="%(default)s if not given")
+    parser.add_argument(
+        "--rubber",
+        type=quantity,
+        metavar="MASS",
+        help='largest mass of the rubber, such as "25 g"; the finger then must not buckle either',
+    )
+    parser.add_argument(
+        "--stl",
+        type=Path,
+        metavar="FOLDER",
+        help="write a mould there, two trays and a core: STL files, which have no unit, in mm",
+    )
     parser.add_argument("--json", action="store_true", help="all of it in SI, for scripts")
 
 
@@ -73,31 +94,84 @@ def problem(asked: Namespace) -> DesignProblem:
     return DesignProblem(**given, bounds=bounds, band=band)
 
 
+def layout(asked: Namespace, stated: DesignProblem) -> Layout:
+    """Return the finger's chambers and length."""
+    return Layout(asked.chambers, stated.length)
+
+
+def rubber(asked: Namespace) -> float:
+    """Return the density of the rubber, kg/m^3: that of the dissertation's without a material."""
+    return DRAGON_SKIN_20 if asked.material is None else density(asked.material)
+
+
 def words(found: CertifiedDesign) -> str:
     """Return a design in words."""
     design, proof = found.design, found.certificate
-    sizes = ", ".join(
-        f"{name} {value / MM:.3g} mm" for name, value in asdict(design.section).items()
-    )
-    proved = (
-        f"no other section is better by more than {proof.upper_bound / proof.objective - 1:.1e}"
-        f" of the objective: {proof.boxes} boxes were bounded"
-        if proof.proven
-        else f"not proved: one of up to {proof.upper_bound:.6g} may be there"
-    )
     return "\n".join(
         [
-            sizes,
-            f"torque {design.torque:.3g} N m, bending {design.angle / DEG:.3g} deg,"
-            f" objective {design.objective:.6g}",
-            f"at its ends: {', '.join(design.active) or 'none'}",
-            proved,
+            *_does(design.section, design.torque, design.angle, design.objective, design.active),
+            _proof(design.objective, proof.upper_bound, proof.boxes, proof.proven),
         ]
+    )
+
+
+def limited_words(found: LimitedDesign) -> str:
+    """Return a design within limits in words."""
+    values = found.values
+    return "\n".join(
+        [
+            *_does(
+                found.section, values["torque"], values["angle"], values["objective"], found.active
+            ),
+            _proof(values["objective"], found.upper_bound, found.boxes, found.proven),
+        ]
+    )
+
+
+def _does(
+    section: Section, torque: float, angle: float, objective: float, active: tuple[str, ...]
+) -> list[str]:
+    sizes = ", ".join(f"{name} {value / MM:.3g} mm" for name, value in asdict(section).items())
+    return [
+        sizes,
+        f"torque {torque:.3g} N m, bending {angle / DEG:.3g} deg, objective {objective:.6g}",
+        f"at its ends: {', '.join(active) or 'none'}",
+    ]
+
+
+def _proof(objective: float, bound: float, boxes: int, proven: bool) -> str:
+    if not proven:
+        return f"not proved: one of up to {bound:.6g} may be there"
+    return (
+        f"no other section is better by more than {bound / objective - 1:.1e}"
+        f" of the objective: {boxes} boxes were bounded"
     )
 
 
 def run(asked: Namespace) -> int:
     """Solve, print, and return the exit code: 1 if the design could not be proved."""
-    found = certified_design(problem(asked))
-    print(json.dumps(asdict(found), indent=2) if asked.json else words(found))
-    return int(not found.certificate.proven)
+    stated = problem(asked)
+    placed, heavy = layout(asked, stated), rubber(asked)
+    if asked.rubber is None:
+        whole = certified_design(stated)
+        section, proven = whole.design.section, whole.certificate.proven
+        found, said = asdict(whole), words(whole)
+    else:
+        limits = Limits(mass=asked.rubber, buckling=1.0)
+        light = best_within(LimitedProblem(stated, placed, heavy, limits))
+        section, proven = light.section, light.proven
+        found, said = asdict(light), limited_words(light)
+    if asked.stl is not None or asked.rubber is not None:
+        check_layout(placed, section)
+        mass, air = finger_mass(section, placed, heavy), air_volume(section, placed)
+        found |= {"mass": mass, "air": air}
+        said += (
+            f"\n{placed.chambers} chambers: {1e3 * mass:.3g} g of rubber of {heavy:g} kg/m^3,"
+            f" {air / ML:.3g} mL of air"
+        )
+    if asked.stl is not None:
+        files = write_mould(section, placed, asked.stl)
+        found |= {"stl": list(map(str, files))}
+        said += "".join(f"\nwritten, in mm: {file}" for file in files)
+    print(json.dumps(found, indent=2) if asked.json else said)
+    return int(not proven)
