@@ -90,6 +90,6 @@ def test_threads_and_a_dask_cluster_give_the_same(tmp_path):
                 host="127.0.0.1", dashboard_address="127.0.0.1:0",
             ) as cluster,
             distributed.Client(cluster),
+            joblib.parallel_config(backend="dask"),
         ):  # fmt: skip
-            with joblib.parallel_config(backend="dask"):
-                assert continued(work, QUESTIONS, tmp_path / "dask.jsonl") == alone
+            assert continued(work, QUESTIONS, tmp_path / "dask.jsonl") == alone

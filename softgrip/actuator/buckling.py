@@ -9,7 +9,7 @@ torque stays behind; it gives no criterion. This is ours, from two classical res
   (F. Engesser, 1889), here ``E_t = n E e**(n - 1)`` of Ludwick's law at the strain to which Eq.
   (3.3) stretches the wall, ``E e**n = P_w``.
 
-Put together, ``P A_c = pi**2 E_t I / (K L)**2`` solved for P is `buckling_pressure`. What is assumed:
+Put together, ``P A_c = pi**2 E_t I / (K L)**2`` solved for P is `buckling_pressure`. Assumed is:
 the *whole* push acts along the finger, which is the most that can; the wall is as stretched as that
 of a free finger, which is the stiffest that it can be; the section is solid, as in Eq. (3.8); and
 the ends do not turn, K = 1/2. With K of another textbook case (0.7, 1, 2) or with n = 1 Design 1

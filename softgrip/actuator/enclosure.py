@@ -3,8 +3,11 @@
 Interval arithmetic (R. E. Moore, 1966): from between what its arguments lie, each step says between
 what its result lies, and so does the function. An argument that is used twice is taken to be two
 that vary apart, so that the bounds are wide for a wide box; they close in as it shrinks. The steps
-are rounded as others are, and not outwards: the bounds hold to about 1e-15 of what they are made of.
+are rounded as others are, and not outwards: the bounds hold to about 1e-15 of their parts.
 """
+
+from collections.abc import Callable
+from typing import Any
 
 import casadi as ca
 
@@ -18,8 +21,8 @@ def enclosed(function: ca.Function, within: int) -> ca.Function:
     """Return a function of the ends of a box that bounds another one.
 
     Args:
-        function: Of symbols; it uses ``+ - * /``, squares, roots, powers, exp and log, and where it
-            takes a logarithm or a power of a number that is not whole, that number is above zero.
+        function: Of symbols; it uses ``+ - * /``, squares, roots, powers, exp and log. Where it
+            takes a power that is not whole, the bounds are those of what is above zero.
         within: Number of its first arguments that lie between ends; others are known.
 
     Returns:
@@ -64,9 +67,11 @@ def enclosed(function: ca.Function, within: int) -> ca.Function:
 
 def _step(code: int, x: Ends, y: Ends | None = None) -> Ends:
     """Return the ends of what an instruction gives."""
-    rising = {ca.OP_EXP: ca.exp, ca.OP_LOG: ca.log, ca.OP_SQRT: ca.sqrt, ca.OP_ASSIGN: ca.SX}
+    rising: dict[int, Any] = {ca.OP_EXP: ca.exp, ca.OP_SQRT: ca.sqrt, ca.OP_ASSIGN: ca.SX}
     if code in rising:
         return _each(rising[code], x)
+    if code == ca.OP_LOG:
+        return _logarithm(x)
     if code == ca.OP_TWICE:
         return _each(lambda end: 2 * end, x)
     if code == ca.OP_NEG:
@@ -86,13 +91,19 @@ def _step(code: int, x: Ends, y: Ends | None = None) -> Ends:
         if code == ca.OP_DIV:
             return _product(x, _inverse(y))
         if code in (ca.OP_POW, ca.OP_CONSTPOW):
-            return _each(ca.exp, _product(y, _each(ca.log, x)))
+            return _each(ca.exp, _product(y, _logarithm(x)))
     raise InvalidInputError("function", expected="sums, products, powers", got=f"CasADi's {code}")
 
 
-def _each(rising: ca.Function, x: Ends) -> Ends:
+def _each(rising: Callable[[ca.SX], ca.SX], x: Ends) -> Ends:
     low = rising(x[0])
     return (low, low) if x[0] is x[1] else (low, rising(x[1]))
+
+
+def _logarithm(x: Ends) -> Ends:
+    """Return log x; where x may be zero or less, it is bounded from above alone, or not at all."""
+    low = ca.if_else(x[0] > 0, ca.log(x[0]), -ca.inf)
+    return (low, low) if x[0] is x[1] else (low, ca.if_else(x[1] > 0, ca.log(x[1]), ca.inf))
 
 
 def _both(low: ca.SX, high: ca.SX, x: Ends, y: Ends) -> Ends:

@@ -28,7 +28,7 @@ from softgrip.arrays import Flags
 from softgrip.journal import continued
 from softgrip.kept import Kept
 from softgrip.materials.table import table_5_1
-from softgrip.units import MM, ML
+from softgrip.units import MM
 
 LEAST_ANGLE = pi / 2
 """Bending that every finger of the front has, rad."""
@@ -39,8 +39,10 @@ PRESSURES = (30e3, 60e3, 120e3)
 """Pa: from what the softest rubbers bear to nearly the 0.15 MPa of the printed design."""
 MASSES = (0.015, 0.030)
 """kg: the printed design has 34 g."""
+FINE_MASSES = (0.018, 0.021, 0.024, 0.027)
+"""Between them, for six chambers at the middle pressure."""
 ENVELOPES = (30e3 * MM**3, 45e3 * MM**3)
-AIRS = (10 * ML, 20 * ML)
+AIRS = (10e-6, 20e-6)
 FREQUENCIES = (1.5, 2.0)
 
 
@@ -130,8 +132,10 @@ class Point:
 
 
 def questions() -> list[Question]:
-    """Return what is asked: each material, number of chambers and pressure with a limit of mass,
-    and six chambers at the middle pressure with a limit of size, of air, or of frequency.
+    """Return what is asked.
+
+    Each material, number of chambers and pressure with a limit of mass, and six chambers at the
+    middle pressure with other limits of mass, or one of size, of air, or of frequency.
     """
     names = [*table_5_1()]
     asked = [
@@ -140,6 +144,7 @@ def questions() -> list[Question]:
     ]
     for name in names:
         plain = Question(name, CHAMBERS[1], PRESSURES[1])
+        asked += [replace(plain, largest_mass=most) for most in FINE_MASSES]
         asked += [replace(plain, largest_envelope=most) for most in ENVELOPES]
         asked += [replace(plain, largest_air=most) for most in AIRS]
         asked += [replace(plain, least_frequency=least) for least in FREQUENCIES]

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from math import inf
-from types import MappingProxyType
 
 from softgrip.actuator.bending import Finger, bending_angle
 from softgrip.actuator.buckling import buckling_pressures

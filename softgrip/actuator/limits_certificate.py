@@ -56,8 +56,12 @@ SAFE: dict[str, Any] = {
     "ipopt.bound_relax_factor": 1e-10,
 }
 """Of IPOPT: limits that meet in a corner ask for more care than `optimize.OPTIONS` take."""
-RESTART = 6
-"""Halvings after which a local search starts from the most promising box, if any are left."""
+MASS_TOLERANCE = 1e-3
+"""Part of its mass by which a section may be heavier than the lightest."""
+RESTART = 12
+"""Rounds after which a local search starts from the most promising box, if any are left."""
+FEW = 48
+"""Boxes up to which each is cut more than once before bounds are taken: a round costs as much."""
 
 
 class NothingWithinLimitsError(SoftgripError, ValueError):
@@ -136,6 +140,74 @@ def best_within(limited: LimitedProblem, *, tolerance: float = TOLERANCE) -> Lim
     )
 
 
+@dataclass(frozen=True)
+class Lightest:
+    """The least mass of rubber for an objective.
+
+    Attributes:
+        mass: kg.
+        section: Of that mass, m.
+        boxes: Whose bound was taken for the proof.
+        proven: Whether it is proved that no section lighter by `MASS_TOLERANCE` does as much.
+    """
+
+    mass: float
+    section: Section
+    boxes: int
+    proven: bool
+
+
+def lightest(limited: LimitedProblem, objective: float) -> Lightest:
+    """Return the lightest section within limits whose objective is at least so large, proved.
+
+    The best objective grows with the mass that is allowed, so that the least mass is a root.
+
+    Args:
+        limited: The problem; its limit of the mass is where the search begins.
+        objective: That is wanted, > 0.
+
+    Raises:
+        NothingWithinLimitsError: If no section within the limits does as much.
+        InvalidInputError: If the objective is not above zero.
+
+    >>> design_1 = Section(0.020, 0.004, 0.030, 0.0015)
+    >>> as_good = float(measures(LimitedProblem(), design_1)["objective"])
+    >>> found = lightest(LimitedProblem(), as_good)
+    >>> found.proven, round(1e3 * found.mass, 1)
+    (True, 32.3)
+    """
+    check_positive(objective=objective)
+    best = best_within(limited)
+    if best.values["objective"] < objective:
+        raise NothingWithinLimitsError(
+            f"no section within {limited.limits} has an objective of {objective:.6g}; "
+            f"the best has {best.upper_bound:.6g}"
+        )
+    sides, examined = _sides(limited), 0
+    least = finger_mass(Section(*sides[:, 0].tolist()), limited.layout, limited.density)
+    section, most = best.section, best.values["mass"]
+    while True:
+        low, high = np.log(float(least)), np.log(most)
+        while high - low > MASS_TOLERANCE / 4:
+            middle = (low + high) / 2
+            lighter = _proposed(limited.within(mass=float(np.exp(middle))), _sides_of(section))
+            if lighter.section is not None and lighter.objective >= objective:
+                high, section = middle, lighter.section
+            else:
+                low = middle
+        most = float(np.exp(high))
+        under = limited.within(mass=most * (1 - MASS_TOLERANCE))
+        bound, boxes, better = _search(under, _proposed(under), objective)
+        examined += boxes
+        if better is None or better.section is None:
+            return Lightest(most, section, examined, bool(bound <= objective))
+        section, most = better.section, most * (1 - MASS_TOLERANCE)
+
+
+def _sides_of(section: Section) -> Floats:
+    return np.array([section.top, section.bottom, section.width, section.wall])
+
+
 def inside(limited: LimitedProblem, section: Section, slack: float = SLACK) -> Flags:
     """Tell which sections of numbers are within all limits, but for a slack."""
     with np.errstate(invalid="ignore"):  # where b < t there is no angle
@@ -175,7 +247,10 @@ def _search(
         narrow = ((boxes[1::2] - boxes[::2]) <= 1e-8 * sides[:, :1]).all(axis=0)
         if better is not None or narrow.any() or examined > MOST_BOXES:
             return max(dropped, float(bound.max())), examined, better
-        boxes = _halve(boxes, weights, size)
+        for _ in range(4):
+            boxes, weights = _halve(boxes, weights, size)
+            if boxes.shape[1] > FEW:
+                break
     return dropped, examined, None
 
 
@@ -200,13 +275,22 @@ def upper_bound(
     low, high = _ends(limited)
     weights = np.where(np.isfinite(np.where(multipliers > 0, high, low)), multipliers, 0.0)
     ends = np.where(weights > 0, high, np.where(weights < 0, low, 0.0))
-    laws_of_box = _bounded(problem.combined, limited.layout)
-    least, largest, dual, slopes = (
-        np.array(one)
-        for one in laws_of_box(
-            boxes[::2], boxes[1::2], _parameters(limited), weights, weights @ ends, not violated
-        )
-    )
+    bounds, value = _bounded(problem.combined, limited.layout)
+    given = _parameters(limited), weights, not violated
+    low_side, high_side = boxes[::2], boxes[1::2]
+    found = bounds(low_side, high_side, *given)
+    least, largest, falls, rises = (np.array(one) for one in found)
+    # About which point the bound is least (E. Baumann, BIT 28, 1988): an end if the slope has one
+    # sign all over the box. Then the side adds nothing, however long it is. What is no number is
+    # not known, and bounds nothing.
+    falls = np.where(np.isnan(falls), -inf, np.minimum(falls, 0.0))
+    rises = np.where(np.isnan(rises), inf, np.maximum(rises, 0.0))
+    with np.errstate(invalid="ignore"):
+        share = np.where(rises - falls > 0, rises / (rises - falls), 0.0)
+        long = high_side - low_side
+        beyond = np.where(long > 0, -falls * share * long, 0.0)
+        point = low_side + np.where(np.isfinite(share), share, 0.5) * long
+        dual = np.array(value(point, *given, weights @ ends)) + beyond.sum(axis=0)
     with np.errstate(over="ignore"):
         objective = np.exp(largest[0])
     feasible = (largest[1:] >= low[:, None] - SLACK) & (least[1:] <= high[:, None] + SLACK)
@@ -216,7 +300,9 @@ def upper_bound(
     else:
         with np.errstate(over="ignore"):
             bound = np.fmin(objective, np.exp(dual))
-    return np.where(feasible.all(axis=0), bound, -inf), slopes
+    with np.errstate(invalid="ignore"):
+        steep = np.maximum(-falls, rises) * long
+    return np.where(feasible.all(axis=0), bound, -inf), steep
 
 
 def _middle(limited: LimitedProblem, boxes: Floats, target: float) -> _Proposal | None:
@@ -235,19 +321,22 @@ def _middle(limited: LimitedProblem, boxes: Floats, target: float) -> _Proposal 
     return _Proposal(Section(*map(float, start)), float(value[best]), solved.multipliers)
 
 
-def _halve(boxes: Floats, weights: Floats, size: Floats) -> Floats:
+def _halve(boxes: Floats, weights: Floats, size: Floats) -> tuple[Floats, Floats]:
     """Cut each box in two across the side that decides its bound, or the longest."""
     part = (boxes[1::2] - boxes[::2]) / np.where(size > 0, size, inf)[:, None]
     known = np.isfinite(weights).all(axis=0)
     by_weight = np.where(known, weights, 0.0)
     share = by_weight / np.maximum(by_weight.sum(axis=0), 1e-300)
     # A side that is much longer than the others is cut at last, whatever it decides.
-    rows, columns = 2 * np.argmax(share + part / part.max(axis=0) / 4, axis=0), np.arange(boxes.shape[1])
+    side = np.argmax(share + part / np.maximum(part.max(axis=0), 1e-300) / 4, axis=0)
+    rows, columns = 2 * side, np.arange(boxes.shape[1])
     middle = (boxes[rows, columns] + boxes[rows + 1, columns]) / 2
     lower, upper = boxes.copy(), boxes.copy()
     lower[rows + 1, columns] = middle
     upper[rows, columns] = middle
-    return np.concatenate([lower, upper], axis=1)
+    half = weights.copy()
+    half[side, columns] /= 2
+    return np.concatenate([lower, upper], axis=1), np.concatenate([half, half], axis=1)
 
 
 def _sides(limited: LimitedProblem) -> Floats:
@@ -367,8 +456,12 @@ def _solvers(combined: Combined, layout: Layout) -> tuple[Any, Any]:
 
 
 @cache
-def _bounded(combined: Combined, layout: Layout) -> Any:
-    """Return the function of `upper_bound`: of a box, all by the same instructions."""
+def _bounded(combined: Combined, layout: Layout) -> tuple[Any, Any]:
+    """Return what `upper_bound` asks of a box, and of a point in it.
+
+    Of the box: the logarithms of least and largest objective and limits, and between what the
+    slopes of the weighed sum lie. Of the point: the sum.
+    """
     x, p = ca.SX.sym("x", 4), ca.SX.sym("p", 6)
     weights, shift, counts = ca.SX.sym("m", 2 + len(NAMES)), ca.SX.sym("s"), ca.SX.sym("o")
     total, limits = _logs(x, p, combined, layout)
@@ -378,13 +471,10 @@ def _bounded(combined: Combined, layout: Layout) -> Any:
     slope = ca.Function("slope", [x, *given], [ca.gradient(dual, x)])
     value = ca.Function("value", [x, *given, shift], [dual])
     low, high = ca.SX.sym("low", 4), ca.SX.sym("high", 4)
-    steep = enclosed(slope, 1)(low, high, *given)
-    reach = (high - low) / 2 * ca.fmax(ca.fabs(steep[0]), ca.fabs(steep[1]))
-    top = value((low + high) / 2, *given, shift) + ca.sum1(reach)
+    falls, rises = enclosed(slope, 1)(low, high, *given)
     least, largest = _corners(low, high, p, combined, layout)
-    return ca.Function(
-        "bounded", [low, high, p, weights, shift, counts], [least, largest, top, reach]
-    )
+    bounds = ca.Function("bounds", [low, high, *given], [least, largest, falls, rises])
+    return bounds, value
 
 
 def _corners(low: Any, high: Any, p: Any, combined: Combined, layout: Layout) -> tuple[Any, Any]:

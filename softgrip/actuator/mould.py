@@ -80,9 +80,7 @@ def mould(section: Section, layout: Layout) -> Mould:
     middle = w / 2
     plugs = [_box((start, t, -SHELL / 2), (end, w - t, a - t)) for start, end in rows]
     # The duct ends at the wall of the tray, through the first cap.
-    plugs.append(
-        _box((0, middle - duct / 2, -SHELL / 2), (rows[-1][1], middle + duct / 2, duct))
-    )
+    plugs.append(_box((0, middle - duct / 2, -SHELL / 2), (rows[-1][1], middle + duct / 2, duct)))
     lid = _box((-SHELL, -SHELL, -SHELL), (long + SHELL, w + SHELL, 0))
     core = lid
     for plug in plugs:

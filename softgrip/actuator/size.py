@@ -90,9 +90,7 @@ def check_layout(layout: Layout, section: Section) -> None:
         raise InvalidInputError(
             "duct", expected=f"at most the chamber, {inside:g} m", got=layout.duct
         )
-    if layout.chambers > 1 and not (
-        layout.duct < layout.groove_floor < section.top - section.wall
-    ):
+    if layout.chambers > 1 and not (layout.duct < layout.groove_floor < section.top - section.wall):
         raise InvalidInputError(
             "groove_floor",
             expected=f"above the duct, {layout.duct:g} m, and below the chamber's roof, "

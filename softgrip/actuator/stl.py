@@ -16,9 +16,7 @@ from softgrip.errors import DataFileError, InvalidInputError
 from softgrip.files import existing
 
 HEADER = 80
-TRIANGLE = np.dtype(
-    [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attributes", "<u2")]
-)
+TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attributes", "<u2")])
 """Of a binary STL file: 50 bytes a triangle."""
 
 
@@ -48,7 +46,7 @@ class Solid:
     @property
     def size(self) -> Floats:
         """Sides of the box around it, mm, shape (3,)."""
-        return np.ptp(self.points, axis=0)
+        return np.asarray(np.ptp(self.points, axis=0))
 
     @property
     def watertight(self) -> bool:

@@ -26,7 +26,7 @@ from softgrip.reads import remembered
 
 DRAWS = 200
 ABOUT_ONE = (0.25, 2.0)
-"""Strains between which a cubic gives the stress at strain 1: at 1 itself a draw may have no row."""
+"""Strains between which a cubic gives the stress at 1, where a draw may have no row."""
 
 
 @dataclass(frozen=True)

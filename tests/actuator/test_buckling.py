@@ -1,4 +1,4 @@
-"""The buckling pressure: by its definition, in the linear limit, and against three printed facts."""
+"""The buckling pressure: by definition, in the linear limit, against three printed facts."""
 
 from math import pi
 

@@ -22,7 +22,7 @@ from softgrip.actuator.limits_certificate import (
 from softgrip.actuator.section import Section
 from softgrip.errors import InvalidInputError
 from softgrip.materials.table import table_5_1
-from softgrip.units import MM, ML
+from softgrip.units import ML, MM
 
 NEEDS = Limits(mass=0.022, angle=1.5, air=16 * ML, envelope=45e3 * MM**3, buckling=1.0)
 PROBLEM = LimitedProblem.for_material(

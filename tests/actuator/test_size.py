@@ -65,9 +65,7 @@ def test_what_grows_with_what(dimension, chambers, which, by):
         return
     before, after = Section(*dimension), Section(*other)
     assert rubber_volume(after, layout) > rubber_volume(before, layout)
-    signs = np.sign(
-        [f(after, layout) - f(before, layout) for f in (envelope, air_volume)]
-    ).tolist()
+    signs = np.sign([f(after, layout) - f(before, layout) for f in (envelope, air_volume)]).tolist()
     assert signs == [[1, 1], [1, 0], [1, 1], [0, -1]][which]
 
 

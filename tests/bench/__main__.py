@@ -10,7 +10,7 @@ from tests.bench.entry import table, write
 PATH = Path(__file__).parents[2] / "book" / "_build" / "bench.json"
 SUBJECTS = (
     *("step_responses", "rig", "growth", "controller", "design", "elastica", "grippers"),
-    *("kernel_regression", "pad_reading", "drift", "board", "twin", "delay"),
+    *("kernel_regression", "pad_reading", "drift", "board", "twin", "delay", "front"),
 )
 
 

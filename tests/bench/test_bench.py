@@ -28,6 +28,7 @@ SMALL = {
     "drift": {"count": 50, "repetitions": 1},
     "twin": {"rigs_at_a_time": 2, "experiments": ("statics", "lifts")},
     "delay": {"count": 50, "others": 3},
+    "front": {"points": 1, "starts": 1, "whole": 2},
     "grippers": {"pairs": 4, "plain_pairs": 1, "growth": (2, 4, 8), "repetitions": 1},
 }
 KINDS = {

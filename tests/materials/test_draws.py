@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from softgrip.materials import tensile
-from softgrip.materials.draws import DRAWS, KEPT, draws, drawn
+from softgrip.materials.draws import DRAWS, KEPT, drawn, draws
 from softgrip.materials.facts import facts
 from softgrip.materials.table import table_5_1
 from softgrip.materials.tensile import TensileTest
@@ -20,7 +20,9 @@ def made(E, n, noise, rows=400):
 
 def test_draws_lie_about_the_truth():
     """E is the engineering stress at strain 1, half of the true one, so n is that of this E."""
-    found = np.array([(d.young_modulus, d.fractional_power) for d in drawn(made(2e5, 2.0, 0.01), 60)])
+    found = np.array(
+        [(d.young_modulus, d.fractional_power) for d in drawn(made(2e5, 2.0, 0.01), 60)]
+    )
     # A cubic is not the curve: it is off by less than a hundredth, as the next test says.
     assert np.median(found[:, 0]) == pytest.approx(1e5, rel=0.02)
     assert 0.001 < np.std(found[:, 0]) / 1e5 < 0.05

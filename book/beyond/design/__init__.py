@@ -1,0 +1,1 @@
+"""Weight and size in the loop: the page *Design yours*."""
