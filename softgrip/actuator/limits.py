@@ -48,6 +48,20 @@ class Limits:
     air: float = inf
     buckling: float = 0.0
 
+    def __str__(self) -> str:
+        """Return the limits that are set, in words and SI."""
+        words = {
+            "torque": "torque of {:.4g} N m at least",
+            "angle": "bending of {:.4g} rad at least",
+            "mass": "rubber of {:.4g} kg at most",
+            "envelope": "box of {:.4g} m^3 at most",
+            "air": "air of {:.4g} m^3 at most",
+            "buckling": "buckling from {:.4g} times the pressure on",
+        }
+        told = {name: getattr(self, name) for name in words}
+        told = {name: value for name, value in told.items() if value not in (0.0, inf)}
+        return ", ".join(words[name].format(value) for name, value in told.items()) or "no limit"
+
     def __post_init__(self) -> None:
         units = {"torque": "N m", "angle": "rad", "mass": "kg", "envelope": "m^3", "air": "m^3"}
         asked = {name: unit for name, unit in units.items() if getattr(self, name) != inf}

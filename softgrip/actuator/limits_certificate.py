@@ -127,7 +127,7 @@ def best_within(limited: LimitedProblem, *, tolerance: float = TOLERANCE) -> Lim
     if proposed.section is None:
         how = "proved" if bound == -inf else "none was found"
         raise NothingWithinLimitsError(
-            f"no section within the bounds and {limited.limits}: {how}, in {boxes} boxes"
+            f"no section within the bounds has: {limited.limits}; {how}, in {boxes} boxes"
         )
     found = measures(limited, proposed.section)
     return LimitedDesign(
@@ -180,7 +180,7 @@ def lightest(limited: LimitedProblem, objective: float) -> Lightest:
     best = best_within(limited)
     if best.values["objective"] < objective:
         raise NothingWithinLimitsError(
-            f"no section within {limited.limits} has an objective of {objective:.6g}; "
+            f"no section with {limited.limits} has an objective of {objective:.6g}; "
             f"the best has {best.upper_bound:.6g}"
         )
     sides, examined = _sides(limited), 0

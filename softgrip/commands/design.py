@@ -4,13 +4,14 @@ Example::
 
   softgrip design --pressure "80 kPa" --material "Dragon Skin 20" --length "80 mm" \
     --top "10 mm" "16 mm" --width "15 mm" "22 mm" --frequency 0.4 0.8 --mass "100 g"
-  softgrip design --material "Dragon Skin 20" --rubber "25 g" --stl mould
+  softgrip design --material "Dragon Skin 20" --rubber "25 g" --buckling 1 --stl mould
   softgrip design --json
 """
 
 import json
 from argparse import ArgumentParser, Namespace
 from dataclasses import asdict, fields
+from math import inf
 from pathlib import Path
 
 from softgrip.actuator.certificate import CertifiedDesign, certified_design
@@ -60,7 +61,13 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--rubber",
         type=quantity,
         metavar="MASS",
-        help='largest mass of the rubber, such as "25 g"; the finger then must not buckle either',
+        help='largest mass of the rubber, such as "25 g"',
+    )
+    parser.add_argument(
+        "--buckling",
+        type=float,
+        metavar="FACTOR",
+        help="least buckling pressure over the pressure, such as 1; without it, it may buckle",
     )
     parser.add_argument(
         "--stl",
@@ -152,16 +159,18 @@ def run(asked: Namespace) -> int:
     """Solve, print, and return the exit code: 1 if the design could not be proved."""
     stated = problem(asked)
     placed, heavy = layout(asked, stated), rubber(asked)
-    if asked.rubber is None:
+    limited = asked.rubber is not None or asked.buckling is not None
+    if not limited:
         whole = certified_design(stated)
         section, proven = whole.design.section, whole.certificate.proven
         found, said = asdict(whole), words(whole)
     else:
-        limits = Limits(mass=asked.rubber, buckling=1.0)
+        most = inf if asked.rubber is None else asked.rubber
+        limits = Limits(mass=most, buckling=asked.buckling or 0.0)
         light = best_within(LimitedProblem(stated, placed, heavy, limits))
         section, proven = light.section, light.proven
         found, said = asdict(light), limited_words(light)
-    if asked.stl is not None or asked.rubber is not None:
+    if asked.stl is not None or limited:
         check_layout(placed, section)
         mass, air = finger_mass(section, placed, heavy), air_volume(section, placed)
         found |= {"mass": mass, "air": air}

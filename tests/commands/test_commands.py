@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from softgrip.actuator.stl import read_stl
 from softgrip.commands.__main__ import COMMANDS, main, module
 from softgrip.logs.reader import kept_log
 from softgrip.rig import fit as rig_fit
@@ -99,6 +100,13 @@ def test_example_of_the_help_runs(words, folder, capsys, monkeypatch):
         (["design", "--pressure", "80 mm"], "'mm'"),
         (["design", "--length", "110"], "probably mm"),
         (["design", "--material", "Dragon"], "valid are: "),
+        (["design", "--rubber", "2 mm"], "'mm'"),
+        (["design", "--rubber", "2 g"], "rubber of 0.002 kg at most; proved"),
+        (["design", "--buckling", "-1"], "buckling"),
+        (["design", "--chambers", "20", "--stl", "mould"], "room for 20"),
+        (["design", "--chambers", "0", "--stl", "mould"], "at least 1"),
+        (["design", "--length", "250 mm", "--stl", "mould"], "bed of 200 mm"),
+        (["design", "--stl", "run.csv"], "run.csv"),
         (["record", "nowhere", "-o", "new.csv", "--travel", "5 mm"], "nowhere"),
         (["record", "simulated", "-o", "run.csv", "--travel", "5 mm"], "a new file"),
         (["record", "simulated:x", "-o", "new.csv", "--travel", "5 mm"], "valid are: simulated"),
@@ -114,6 +122,27 @@ def test_what_cannot_be_done_is_said_in_one_line(words, told, folder, capsys):
     assert told in said
     assert "Traceback" not in said
     assert "usage" in said or said.count("\n") == 1
+
+
+def test_design_writes_a_mould_in_mm_and_says_so(folder, capsys):
+    assert run("design", "--rubber", "28 g", "--chambers", "5", "--length", "80 mm",
+               "--stl", "new/mould", "--json") == 0  # fmt: skip
+    found = json.loads(capsys.readouterr().out)
+    files = [Path(name) for name in found["stl"]]
+    assert files == [Path("new/mould") / f"{part}.stl" for part in ("upper", "lower", "core")]
+    upper, lower, core = map(read_stl, files)
+    side = found["section"]
+    np.testing.assert_allclose(lower.size, [86, 1e3 * side["width"] + 6,
+                                            1e3 * side["bottom"] + 3], rtol=1e-6)  # fmt: skip
+    # What the trays hold, less what the core takes of it, is the rubber that is said.
+    outside = sum(np.prod(part.size) - part.volume for part in (upper, lower))
+    plugs = core.volume - np.prod(core.size[:2]) * 3
+    assert (outside - plugs) * 1e-9 * 1080 == pytest.approx(found["mass"], rel=1e-6)
+    assert found["mass"] == pytest.approx(0.028, rel=1e-5)
+    assert run("design", "--rubber", "28 g", "--stl", "other") == 0
+    said = capsys.readouterr().out
+    assert "written, in mm: other/core.stl" in said
+    assert "g of rubber of 1080 kg/m^3" in said
 
 
 def test_band_that_fails_is_1_and_json_says_which(folder, capsys):

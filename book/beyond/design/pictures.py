@@ -100,11 +100,11 @@ def draw_saved() -> Figure:
     for row, case in enumerate(CASES):
         printed, by_draw = saved(case)
         low, high = 100 * np.percentile(by_draw, [2.5, 97.5])
-        axes.plot([low, high], [row, row], color=BLUE, lw=4, solid_capstyle="butt",
+        axes.plot([low, high], [row, row], color=BLUE, lw=4, solid_capstyle="projecting",
                   label="draws of the test")  # fmt: skip
         axes.plot(100 * printed, row, "o", color=VERMILION, ms=5, label="as printed")
     axes.set_yticks(range(len(CASES)), [case.replace(", angle", ",\nangle") for case in CASES])
-    axes.set(xlabel="rubber saved (%)", ylim=(len(CASES) - 0.5, -0.5), xlim=(-0.5, None))
+    axes.set(xlabel="rubber saved (%)", ylim=(len(CASES) - 0.5, -0.5), xlim=(-0.5, 17))
     handles, labels = axes.get_legend_handles_labels()
-    axes.legend(handles[:2], labels[:2], loc="lower right")
+    axes.legend(handles[:2], labels[:2], loc="upper right")
     return drawn

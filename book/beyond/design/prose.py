@@ -8,11 +8,12 @@ import numpy as np
 from book.beyond.design.explorer import yours
 from book.beyond.design.lighter import CASES, KEPT, RUBBER, saved
 from book.beyond.design.pump import RISE, pump_for
-from book.beyond.design.tables import SHOWN, chosen_points
+from book.beyond.design.tables import SHOWN, chosen_points, percent
 from book.beyond.design.tasks import (
     FIRST,
     HIGH_TOP,
     SOFTEST,
+    both_bear,
     highest,
     softest_bears,
     split_mass,
@@ -42,13 +43,13 @@ def _feasible() -> list[front.Point]:
 
 
 def _saved(case: str) -> str:
-    return f"{100 * saved(case)[0]:.1f}"
+    return percent(saved(case)[0])
 
 
 def _between(case: str) -> str:
     """Return the 95 % interval over the draws."""
-    low, high = 100 * np.percentile(saved(case)[1], [2.5, 97.5])
-    return f"{low:.1f} to {high:.1f}"
+    low, high = np.percentile(saved(case)[1], [2.5, 97.5])
+    return f"{percent(low)} to {percent(high)}"
 
 
 def _torque(chambers: int) -> float:
@@ -61,6 +62,10 @@ def _best_of(chambers: int) -> int:
     rows = _points()
     best = [p.question.chambers for p, good in zip(rows, undominated(rows), strict=True) if good]
     return Counter(best)[chambers]
+
+
+def _feasible_of(chambers: int) -> int:
+    return sum(one.question.chambers == chambers for one in _feasible())
 
 
 def _buckles(name: str) -> float:
@@ -80,7 +85,8 @@ def _part_of_print() -> float:
     )
 
 
-def _softest_name() -> str:
+def _farthest() -> str:
+    """Return the rubber whose test is farthest below the printed E."""
     share = {
         name: float(np.median(draws()[name][:, 0])) / rubber.young_modulus
         for name, rubber in table_5_1().items()
@@ -110,7 +116,6 @@ WORDS: dict[str, Callable[[], str]] = {
     "points": lambda: f"{len(_points())}",
     "none": lambda: f"{len(_points()) - len(_feasible())}",
     "boxes": lambda: f"{sum(one.answer.boxes for one in _points()):,}",
-    "undominated": lambda: f"{sum(undominated(_points()))}",
     "quarter": lambda: f"{front.LEAST_ANGLE / DEG:.0f}",
     "script_mass": lambda: f"{SCRIPT_MASS:g}",
     "mass_1": lambda: f"{1e3 * _design_1()[0]:.1f}",
@@ -131,6 +136,10 @@ WORDS: dict[str, Callable[[], str]] = {
     "four": lambda: f"{front.CHAMBERS[0]}",
     "six": lambda: f"{front.CHAMBERS[1]}",
     "eight": lambda: f"{front.CHAMBERS[2]}",
+    "both_bears": lambda: f"{both_bear():.0f}",
+    "feasible_four": lambda: f"{_feasible_of(4)}",
+    "feasible_six": lambda: f"{_feasible_of(6)}",
+    "feasible_eight": lambda: f"{_feasible_of(8)}",
     "best_four": lambda: f"{_best_of(4)}",
     "best_six": lambda: f"{_best_of(6)}",
     "best_eight": lambda: f"{_best_of(8)}",
@@ -140,8 +149,8 @@ WORDS: dict[str, Callable[[], str]] = {
     "buckles_3": lambda: f"{_buckles('Dragon Skin FX Pro'):.2f}",
     "draws": lambda: f"{DRAWS}",
     "part_of_print": lambda: f"{100 * _part_of_print():.0f}",
-    "softest": _softest_name,
-    "softest_facts": lambda: f"{facts()[_softest_name()].hundred_percent_modulus / MPa:.3f}",
+    "farthest": _farthest,
+    "farthest_facts": lambda: f"{facts()[_farthest()].hundred_percent_modulus / MPa:.3f}",
     "band": lambda: f"{_band():.1f}",
     "rise": lambda: f"{RISE:g}",
     "pumped": lambda: f"{sum(_pumped())}",

@@ -43,12 +43,21 @@ def _row(point: Point) -> dict[str, str]:
     return row | dict(zip(names, values, strict=True)) | {"pump": pump_words(pump_for(point))}
 
 
+def percent(share: float) -> str:
+    """Return a share in percent; what rounds to nothing has no sign.
+
+    >>> percent(-1e-5), percent(0.0312)
+    ('0.0', '3.1')
+    """
+    return f"{round(100 * share, 1) + 0.0:.1f}"
+
+
 def saved_table() -> pd.DataFrame:
     """Tabulate the lightest fingers that do as much as Design 1."""
     rows = []
     for case in CASES:
         printed, by_draw = saved(case)
-        low, high = 100 * np.percentile(by_draw, [2.5, 97.5])
+        low, high = map(percent, np.percentile(by_draw, [2.5, 97.5]))
         one = next(x for x in LIGHTER.read() if x.case == case and x.draw == PRINTED)
         sides = (one.top, one.bottom, one.width, one.wall)
         rows.append(
@@ -56,8 +65,8 @@ def saved_table() -> pd.DataFrame:
                 "what is kept": case,
                 "a, b, w, t (mm)": ", ".join(f"{side / MM:.2f}" for side in sides),
                 "rubber (g)": f"{1e3 * one.mass:.1f}",
-                "saved as printed": f"{100 * printed:.1f} %",
-                "saved as tested": f"{low:.1f} to {high:.1f} %",
+                "saved as printed": f"{percent(printed)} %",
+                "saved as tested": f"{low} to {high} %",
             }
         )
     return pd.DataFrame(rows)

@@ -11,6 +11,8 @@ from softgrip.actuator.size import Layout, rubber_volume
 
 LOW_TOP, HIGH_TOP = 14.0, 20.0
 """Ends of the explorer's slider of a, mm."""
+MOST_MASS = 36.0
+"""Right end of its slider of the mass, g."""
 FIRST: dict[str, Any] = {
     "rubber": "Dragon Skin 20",
     "pressure": 100.0,
@@ -30,6 +32,12 @@ def heights() -> list[float]:
     """Return the torque along the slider of the height, N m: where it is largest is the answer."""
     tops = np.linspace(LOW_TOP, HIGH_TOP, 61)
     return [float(yours(**{**FIRST, "top": float(top)})["pushes"]) for top in tops]
+
+
+def both_bear() -> float:
+    """Return the same at the largest height and mass of the explorer, kPa."""
+    most = {"rubber": SOFTEST, "top": HIGH_TOP, "mass": MOST_MASS}
+    return float(yours(**{**FIRST, **most})["bears"])
 
 
 def softest_bears() -> float:
