@@ -7,23 +7,41 @@ are rounded as others are, and not outwards: the bounds hold to about 1e-15 of t
 """
 
 from collections.abc import Callable
-from typing import Any
+from dataclasses import dataclass
 
 import casadi as ca
 
 from softgrip.errors import InvalidInputError
 
-Ends = tuple[ca.SX, ca.SX]
-"""Least and largest value; one object twice if it is a number that is known."""
+
+@dataclass(frozen=True)
+class Ends:
+    """Least and largest value; one object twice if it is a number that is known.
+
+    Attributes:
+        low, high: The ends.
+        positive: Whether both are known to be above zero.
+    """
+
+    low: ca.SX
+    high: ca.SX
+    positive: bool = False
+
+    @property
+    def known(self) -> bool:
+        """Whether it is one number."""
+        return self.low is self.high
 
 
-def enclosed(function: ca.Function, within: int) -> ca.Function:
+def enclosed(function: ca.Function, within: int, *, positive: int = 0) -> ca.Function:
     """Return a function of the ends of a box that bounds another one.
 
     Args:
         function: Of symbols; it uses ``+ - * /``, squares, roots, powers, exp and log. Where it
             takes a power that is not whole, the bounds are those of what is above zero.
         within: Number of its first arguments that lie between ends; others are known.
+        positive: Number of its first arguments that are above zero: products of such numbers take
+            a fifth of the steps.
 
     Returns:
         From the least and the largest of the first arguments, then the others, to the least and the
@@ -42,7 +60,6 @@ def enclosed(function: ca.Function, within: int) -> ca.Function:
     low = [ca.SX.sym(f"low_{k}", shape) for k, shape in enumerate(shapes[:within])]
     high = [ca.SX.sym(f"high_{k}", shape) for k, shape in enumerate(shapes[:within])]
     known = [ca.SX.sym(f"p_{k}", shape) for k, shape in enumerate(shapes[within:])]
-    ends = [*zip(low, high, strict=True), *((one, one) for one in known)]
     held: dict[int, Ends] = {}
     found = [
         (ca.SX(flat.sparsity_out(k)), ca.SX(flat.sparsity_out(k))) for k in range(flat.n_out())
@@ -52,13 +69,16 @@ def enclosed(function: ca.Function, within: int) -> ca.Function:
         given = flat.instruction_input(k)
         if code == ca.OP_CONST:
             constant = ca.SX(flat.instruction_constant(k))
-            held[out[0]] = constant, constant
+            held[out[0]] = Ends(constant, constant, flat.instruction_constant(k) > 0)
+        elif code == ca.OP_INPUT and given[0] < within:
+            first, last = (ends[given[0]].nz[given[1]] for ends in (low, high))
+            held[out[0]] = Ends(first, last, given[0] < positive)
         elif code == ca.OP_INPUT:
-            first, last = (end.nz[given[1]] for end in ends[given[0]])
-            held[out[0]] = (first, first) if given[0] >= within else (first, last)
+            number = known[given[0] - within].nz[given[1]]
+            held[out[0]] = Ends(number, number, given[0] < positive)
         elif code == ca.OP_OUTPUT:
-            for side, end in zip(found[out[0]], held[given[0]], strict=True):
-                side.nz[out[1]] = end
+            end = held[given[0]]
+            found[out[0]][0].nz[out[1]], found[out[0]][1].nz[out[1]] = end.low, end.high
         else:
             held[out[0]] = _step(code, *(held[place] for place in given))
     outputs = [end for pair in found for end in pair]
@@ -67,79 +87,92 @@ def enclosed(function: ca.Function, within: int) -> ca.Function:
 
 def _step(code: int, x: Ends, y: Ends | None = None) -> Ends:
     """Return the ends of what an instruction gives."""
-    rising: dict[int, Any] = {ca.OP_EXP: ca.exp, ca.OP_SQRT: ca.sqrt, ca.OP_ASSIGN: ca.SX}
-    if code in rising:
-        return _each(rising[code], x)
+    if code == ca.OP_ASSIGN:
+        return x
+    if code == ca.OP_EXP:
+        return _each(ca.exp, x, positive=True)
+    if code == ca.OP_SQRT:
+        return _each(ca.sqrt, x, positive=x.positive)
     if code == ca.OP_LOG:
         return _logarithm(x)
     if code == ca.OP_TWICE:
-        return _each(lambda end: 2 * end, x)
+        return _each(lambda end: 2 * end, x, positive=x.positive)
     if code == ca.OP_NEG:
-        return _turned(x)
+        low = -x.high
+        return Ends(low, low if x.known else -x.low)
     if code == ca.OP_INV:
         return _inverse(x)
     if code == ca.OP_SQ:
-        low, high = _product(x, x)
-        return (low, low) if x[0] is x[1] else (ca.fmax(low, _least_square(x)), high)
+        return _square(x)
     if y is not None:
         if code == ca.OP_ADD:
-            return _both(x[0] + y[0], x[1] + y[1], x, y)
+            low = x.low + y.low
+            high = low if x.known and y.known else x.high + y.high
+            return Ends(low, high, x.positive and y.positive)
         if code == ca.OP_SUB:
-            return _both(x[0] - y[1], x[1] - y[0], x, y)
+            low = x.low - y.high
+            return Ends(low, low if x.known and y.known else x.high - y.low)
         if code == ca.OP_MUL:
             return _product(x, y)
         if code == ca.OP_DIV:
             return _product(x, _inverse(y))
         if code in (ca.OP_POW, ca.OP_CONSTPOW):
-            return _each(ca.exp, _product(y, _logarithm(x)))
+            return _each(ca.exp, _product(y, _logarithm(x)), positive=True)
     raise InvalidInputError("function", expected="sums, products, powers", got=f"CasADi's {code}")
 
 
-def _each(rising: Callable[[ca.SX], ca.SX], x: Ends) -> Ends:
-    low = rising(x[0])
-    return (low, low) if x[0] is x[1] else (low, rising(x[1]))
+def _each(rising: Callable[[ca.SX], ca.SX], x: Ends, *, positive: bool) -> Ends:
+    low = rising(x.low)
+    return Ends(low, low if x.known else rising(x.high), positive)
 
 
 def _logarithm(x: Ends) -> Ends:
     """Return log x; where x may be zero or less, it is bounded from above alone, or not at all."""
-    low = ca.if_else(x[0] > 0, ca.log(x[0]), -ca.inf)
-    return (low, low) if x[0] is x[1] else (low, ca.if_else(x[1] > 0, ca.log(x[1]), ca.inf))
-
-
-def _both(low: ca.SX, high: ca.SX, x: Ends, y: Ends) -> Ends:
-    return (low, low) if x[0] is x[1] and y[0] is y[1] else (low, high)
-
-
-def _turned(x: Ends) -> Ends:
-    low = -x[1]
-    return (low, low) if x[0] is x[1] else (low, -x[0])
+    if x.positive:
+        return _each(ca.log, x, positive=False)
+    low = ca.if_else(x.low > 0, ca.log(x.low), -ca.inf)
+    return Ends(low, low if x.known else ca.if_else(x.high > 0, ca.log(x.high), ca.inf))
 
 
 def _inverse(x: Ends) -> Ends:
     """Return 1/x; all numbers where x may be zero."""
-    if x[0] is x[1]:
-        return (1 / x[0],) * 2
-    apart = x[0] * x[1] > 0
-    return ca.if_else(apart, 1 / x[1], -ca.inf), ca.if_else(apart, 1 / x[0], ca.inf)
+    if x.known or x.positive:
+        low = 1 / x.high
+        return Ends(low, low if x.known else 1 / x.low, x.positive)
+    apart = x.low * x.high > 0
+    return Ends(ca.if_else(apart, 1 / x.high, -ca.inf), ca.if_else(apart, 1 / x.low, ca.inf))
+
+
+def _square(x: Ends) -> Ends:
+    if x.known or x.positive:
+        return _each(lambda end: end**2, x, positive=x.positive)
+    first, last = x.low**2, x.high**2
+    nothing = ca.if_else(x.low * x.high > 0, ca.fmin(first, last), 0)
+    return Ends(nothing, ca.fmax(first, last))
 
 
 def _product(x: Ends, y: Ends) -> Ends:
-    if x[0] is x[1] and y[0] is y[1]:
-        return (x[0] * y[0],) * 2
-    if y[0] is y[1]:
+    if x.positive and y.positive:
+        low = x.low * y.low
+        return Ends(low, low if x.known and y.known else x.high * y.high, positive=True)
+    if x.known and y.known:
+        low = x.low * y.low
+        return Ends(low, low)
+    if x.positive:
         x, y = y, x
-    if x[0] is x[1]:
-        one, other = x[0] * y[0], x[0] * y[1]
-        return ca.fmin(one, other), ca.fmax(one, other)
-    corners = [a * b for a in x for b in y]
+    if y.positive or x.known or y.known:
+        if x.known and not y.positive:
+            x, y = y, x
+        # One of them has one sign: two corners at each end.
+        if y.positive:
+            return Ends(
+                ca.fmin(x.low * y.low, x.low * y.high), ca.fmax(x.high * y.low, x.high * y.high)
+            )
+        one, other = x.low * y.low, x.high * y.low
+        return Ends(ca.fmin(one, other), ca.fmax(one, other))
+    corners = [a * b for a in (x.low, x.high) for b in (y.low, y.high)]
     pairs = (corners[:2], corners[2:])
-    return (
+    return Ends(
         ca.fmin(*(ca.fmin(*pair) for pair in pairs)),
         ca.fmax(*(ca.fmax(*pair) for pair in pairs)),
     )
-
-
-def _least_square(x: Ends) -> ca.SX:
-    """Return the least square, zero if x may be zero."""
-    nearest = ca.fmin(ca.fabs(x[0]), ca.fabs(x[1]))
-    return ca.if_else(x[0] * x[1] > 0, nearest**2, 0)

@@ -58,6 +58,8 @@ SAFE: dict[str, Any] = {
 """Of IPOPT: limits that meet in a corner ask for more care than `optimize.OPTIONS` take."""
 MASS_TOLERANCE = 1e-3
 """Part of its mass by which a section may be heavier than the lightest."""
+LOOK = 3
+"""Rounds after which the middles of the boxes are looked at."""
 RESTART = 12
 """Rounds after which a local search starts from the most promising box, if any are left."""
 FEW = 48
@@ -96,6 +98,15 @@ class _Proposal:
     section: Section | None
     objective: float
     multipliers: Floats
+
+
+def proposed_within(limited: LimitedProblem) -> Section | None:
+    """Return the section that the solver finds within limits, unproved; None if it finds none.
+
+    It is the one that `best_within` proves, unless that meets a better one on the way.
+    """
+    check_units(limited.problem)
+    return _proposed(limited).section
 
 
 def best_within(limited: LimitedProblem, *, tolerance: float = TOLERANCE) -> LimitedDesign:
@@ -232,13 +243,15 @@ def _search(
     examined, dropped = 0, -inf
     for level in range(1000):
         examined += boxes.shape[1]
-        bound, weights = upper_bound(limited, boxes, proposed.multipliers, proposed.section is None)
+        bound, weights = upper_bound(
+            limited, boxes, proposed.multipliers, proposed.section is None, target
+        )
         kept = bound > target
         dropped = max(dropped, float(np.max(bound[~kept], initial=-inf)))
         boxes, bound, weights = boxes[:, kept], bound[kept], weights[:, kept]
         if not boxes.size:
             break
-        better = _middle(limited, boxes, target)
+        better = _middle(limited, boxes, target) if level % LOOK == LOOK - 1 else None
         if better is None and level % RESTART == RESTART - 1:
             first = int(np.argmax(bound))
             better = _proposed(limited, boxes[::2, first] / 2 + boxes[1::2, first] / 2)
@@ -255,7 +268,11 @@ def _search(
 
 
 def upper_bound(
-    limited: LimitedProblem, boxes: Floats, multipliers: Floats, violated: bool = False
+    limited: LimitedProblem,
+    boxes: Floats,
+    multipliers: Floats,
+    violated: bool = False,
+    target: float = -inf,
 ) -> tuple[Floats, Floats]:
     """Return what the objective of no feasible section in a box exceeds, and what decides it.
 
@@ -266,6 +283,7 @@ def upper_bound(
             weighs an upper limit, one below a lower one.
         violated: Whether they are those of the least violation: then a box in which the weighed
             slacks sum to less than nothing holds no feasible section.
+        target: Bounds below it are not sharpened.
 
     Returns:
         The bound, shape (N,), minus infinity where no section of the box is feasible, and how much
@@ -275,11 +293,19 @@ def upper_bound(
     low, high = _ends(limited)
     weights = np.where(np.isfinite(np.where(multipliers > 0, high, low)), multipliers, 0.0)
     ends = np.where(weights > 0, high, np.where(weights < 0, low, 0.0))
-    bounds, value = _bounded(problem.combined, limited.layout)
-    given = _parameters(limited), weights, not violated
-    low_side, high_side = boxes[::2], boxes[1::2]
-    found = bounds(low_side, high_side, *given)
-    least, largest, falls, rises = (np.array(one) for one in found)
+    corners, slopes, value = _bounded(problem.combined, limited.layout)
+    numbers = _parameters(limited)
+    least, largest = (np.array(one) for one in corners(boxes[::2], boxes[1::2], numbers))
+    feasible = (largest[1:] >= low[:, None] - SLACK) & (least[1:] <= high[:, None] + SLACK)
+    with np.errstate(over="ignore"):
+        bound = np.where(feasible.all(axis=0), np.exp(largest[0]), -inf)
+    steep = np.zeros((4, bound.size))
+    left = np.flatnonzero(bound > target)
+    if not left.size:
+        return bound, steep
+    low_side, long = boxes[::2, left], boxes[1::2, left] - boxes[::2, left]
+    given = numbers, weights, not violated
+    falls, rises = (np.array(one) for one in slopes(low_side, boxes[1::2, left], *given))
     # About which point the bound is least (E. Baumann, BIT 28, 1988): an end if the slope has one
     # sign all over the box. Then the side adds nothing, however long it is. What is no number is
     # not known, and bounds nothing.
@@ -287,22 +313,17 @@ def upper_bound(
     rises = np.where(np.isnan(rises), inf, np.maximum(rises, 0.0))
     with np.errstate(invalid="ignore"):
         share = np.where(rises - falls > 0, rises / (rises - falls), 0.0)
-        long = high_side - low_side
         beyond = np.where(long > 0, -falls * share * long, 0.0)
         point = low_side + np.where(np.isfinite(share), share, 0.5) * long
-        dual = np.array(value(point, *given, weights @ ends)) + beyond.sum(axis=0)
-    with np.errstate(over="ignore"):
-        objective = np.exp(largest[0])
-    feasible = (largest[1:] >= low[:, None] - SLACK) & (least[1:] <= high[:, None] + SLACK)
-    dual = np.where(np.isnan(dual[0]), inf, dual[0])
+        dual = np.array(value(point, *given, weights @ ends))[0] + beyond.sum(axis=0)
+        steep[:, left] = np.maximum(-falls, rises) * long
+    dual = np.where(np.isnan(dual), inf, dual)
     if violated:
-        bound = np.where(dual < -SLACK, -inf, objective)
+        bound[left] = np.where(dual < -SLACK, -inf, bound[left])
     else:
         with np.errstate(over="ignore"):
-            bound = np.fmin(objective, np.exp(dual))
-    with np.errstate(invalid="ignore"):
-        steep = np.maximum(-falls, rises) * long
-    return np.where(feasible.all(axis=0), bound, -inf), steep
+            bound[left] = np.fmin(bound[left], np.exp(dual))
+    return bound, steep
 
 
 def _middle(limited: LimitedProblem, boxes: Floats, target: float) -> _Proposal | None:
@@ -456,11 +477,11 @@ def _solvers(combined: Combined, layout: Layout) -> tuple[Any, Any]:
 
 
 @cache
-def _bounded(combined: Combined, layout: Layout) -> tuple[Any, Any]:
+def _bounded(combined: Combined, layout: Layout) -> tuple[Any, Any, Any]:
     """Return what `upper_bound` asks of a box, and of a point in it.
 
-    Of the box: the logarithms of least and largest objective and limits, and between what the
-    slopes of the weighed sum lie. Of the point: the sum.
+    Of the box: the logarithms of least and largest objective and limits; between what the slopes of
+    the weighed sum lie. Of the point: the sum.
     """
     x, p = ca.SX.sym("x", 4), ca.SX.sym("p", 6)
     weights, shift, counts = ca.SX.sym("m", 2 + len(NAMES)), ca.SX.sym("s"), ca.SX.sym("o")
@@ -471,10 +492,10 @@ def _bounded(combined: Combined, layout: Layout) -> tuple[Any, Any]:
     slope = ca.Function("slope", [x, *given], [ca.gradient(dual, x)])
     value = ca.Function("value", [x, *given, shift], [dual])
     low, high = ca.SX.sym("low", 4), ca.SX.sym("high", 4)
-    falls, rises = enclosed(slope, 1)(low, high, *given)
+    falls, rises = enclosed(slope, 1, positive=2)(low, high, *given)
     least, largest = _corners(low, high, p, combined, layout)
-    bounds = ca.Function("bounds", [low, high, *given], [least, largest, falls, rises])
-    return bounds, value
+    corners = ca.Function("corners", [low, high, p], [least, largest])
+    return corners, ca.Function("slopes", [low, high, *given], [falls, rises]), value
 
 
 def _corners(low: Any, high: Any, p: Any, combined: Combined, layout: Layout) -> tuple[Any, Any]:

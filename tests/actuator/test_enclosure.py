@@ -19,9 +19,21 @@ OF_POSITIVE = ca.vertcat(
 ends = st.tuples(st.floats(-3, 3), st.floats(0, 2), st.floats(-3, 3), st.floats(0, 2))
 
 
-def _holds(law, low, high, known):
-    function = ca.Function("f", [X, P], [law])
-    least, largest = (np.array(end).ravel() for end in enclosed(function, 1)(low, high, known))
+LAWS = {
+    name: ca.Function(name, [X, P], [law])
+    for name, law in {"any": OF_ANY_SIGN, "positive": OF_POSITIVE}.items()
+}
+BOUNDS = {
+    (name, positive): enclosed(law, 1, positive=positive)
+    for name, law in LAWS.items()
+    for positive in (0, 1, 2)
+}
+
+
+def _holds(law, low, high, known, positive=0):
+    function = LAWS[law]
+    bounds = BOUNDS[law, positive](low, high, known)
+    least, largest = (np.array(end).ravel() for end in bounds)
     share = np.random.default_rng(0).random((2, 200))
     points = np.array(low)[:, None] + share * (np.array(high) - np.array(low))[:, None]
     found = np.array(function(points, known))
@@ -33,14 +45,24 @@ def _holds(law, low, high, known):
 @given(ends, st.floats(-2, 2))
 def test_no_value_lies_outside(box, known):
     a, wide, b, long = box
-    _holds(OF_ANY_SIGN, [a, b], [a + wide, b + long], known)
+    _holds("any", [a, b], [a + wide, b + long], known)
 
 
 @given(ends, st.floats(0.1, 2))
 def test_no_value_of_positive_numbers_lies_outside(box, known):
     a, wide, b, long = box
     a, b = abs(a) + 0.1, abs(b) + 0.1
-    _holds(OF_POSITIVE, [a, b], [a + wide, b + long], known)
+    for positive in (0, 1, 2):
+        _holds("positive", [a, b], [a + wide, b + long], known, positive)
+        _holds("any", [a, b], [a + wide, b + long], known, positive)
+
+
+def test_knowing_a_sign_changes_no_bound():
+    function = ca.Function("f", [X, P], [ca.vertcat(OF_POSITIVE, OF_ANY_SIGN)])
+    box = [0.5, 1.2], [0.9, 2.0], 1.4
+    plain, told = enclosed(function, 1)(*box), enclosed(function, 1, positive=2)(*box)
+    for one, other in zip(plain, told, strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-14)
 
 
 def test_a_point_has_its_value():
