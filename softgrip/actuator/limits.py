@@ -1,4 +1,4 @@
-"""The design problem of Eq. (3.20) with weight and size in the loop, as Section 7.2 asks."""
+"""The optimal design problem with weight and size in the loop, as Section 7.2 asks."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -30,7 +30,7 @@ DRAGON_SKIN_20 = 1080.0
 
 @dataclass(frozen=True)
 class Limits:
-    """What a design must do, and what it may weigh and take, beside the limits of Eq. (3.20).
+    """What a design must do, and what it may weigh and take, beside the limits of its dimensions.
 
     A number is in SI; words such as ``"30 g"`` are put into it.
 
@@ -74,7 +74,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class LimitedProblem:
-    """Eq. (3.20) for a finger of so many chambers, with limits of weight and size.
+    """The optimal design of a finger of so many chambers, with limits of weight and size.
 
     Attributes:
         problem: Eq. (3.20) with its numbers; its length is that of the layout.

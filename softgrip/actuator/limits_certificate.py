@@ -185,7 +185,7 @@ def lightest(limited: LimitedProblem, objective: float) -> Lightest:
     >>> as_good = float(measures(LimitedProblem(), design_1)["objective"])
     >>> found = lightest(LimitedProblem(), as_good)
     >>> found.proven, round(1e3 * found.mass, 1)
-    (True, 32.3)
+    (True, 32.1)
     """
     check_positive(objective=objective)
     best = best_within(limited)
