@@ -1,5 +1,6 @@
 """A figure with sliders that a kernel draws again at each change."""
 
+import gc
 import html
 from base64 import b64encode
 from collections.abc import Callable, Mapping, Sequence
@@ -63,6 +64,9 @@ def redrawn(draw: Callable[..., Figure], sliders: Mapping[str, Slider], alt: str
             complaint.value = f'<div role="alert" style="white-space: pre-wrap">{text}</div>'
 
     redraw()
+    # What is there now stays: else some redraws wait while all that was imported is looked through.
+    gc.collect()
+    gc.freeze()
     for control in controls.values():
         control.observe(answer, names="index")
     return _arrange([*controls.values()], complaint, picture)

@@ -1,5 +1,6 @@
 """How long a moved slider takes to its new curve: in the page, and where a kernel draws it."""
 
+import gc
 import random
 from pathlib import Path
 from time import perf_counter
@@ -71,6 +72,7 @@ def drawn_live() -> list[float]:
     found = []
     for draw, others, moved, values in LIVE:
         render(draw, {**others, moved: values[0]})  # what is made once is made
+        gc.freeze()  # as `book.explore.redrawn` does
         for value in 4 * values:
             start = perf_counter()
             render(draw, {**others, moved: value}, small=False)
