@@ -87,6 +87,8 @@ def entries(*, points: int = 12, starts: int = 20, whole: int | None = None) -> 
     )
     asked = questions()[:whole]
     taken = _whole(asked)
+    spread = [asked[k] for k in np.linspace(0, len(asked) - 1, points).astype(int)]
+    loop = len(asked) * np.mean([timed(lambda one=one: multi_start(one, starts)) for one in spread])
     rival = sum(rivals) / points
     proved, plain = sum(ours) / points, sum(solved) / points
     said = (
@@ -107,8 +109,11 @@ def entries(*, points: int = 12, starts: int = 20, whole: int | None = None) -> 
             f"{said} Ours is solved and proved to be within 1e-5 of the best.",
         ),
         entry(
-            f"front of {len(asked)} points, certified", taken, "s", None,
-            f"< {MOST_SECONDS:g}", taken < MOST_SECONDS,
-            f"On {CORES} processes with their start; infeasible points are proved to be so.",
+            f"front of {len(asked)} points, certified", taken, "s", float(loop),
+            f"< {MOST_SECONDS:g}, {LEAST_RATIO:g} times",
+            taken < MOST_SECONDS and bool(loop / taken >= LEAST_RATIO),
+            f"On {CORES} processes with their start; infeasible points are proved to be so."
+            f" Baseline: a loop of SLSQP from {starts} starts a point, by {points} points of all,"
+            " feasible or not, on one process.",
         ),
     ]  # fmt: skip
