@@ -57,6 +57,12 @@ def test_no_number_in_a_caption_is_typed(chapter):
 
 
 @pytest.mark.parametrize("page", PAGES)
+def test_no_line_begins_with_the_sign_of_a_comment(page):
+    """A line of MyST that begins with a percent sign is left out, whatever it was to say."""
+    assert re.findall(r"(?m)^ *%(?!%).*", PAGES[page]) == []
+
+
+@pytest.mark.parametrize("page", PAGES)
 def test_no_number_in_the_prose_of_a_page_is_typed(page):
     assert [*typed_on_page(PAGES[page])] == []
 
