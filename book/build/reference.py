@@ -68,7 +68,7 @@ def packages() -> list[str]:
     """Return all packages, each before what is in it.
 
     >>> packages()[:3]
-    ['book.author', 'book.beyond', 'book.beyond.drift']
+    ['book.author', 'book.beyond', 'book.beyond.delay']
     """
     found = (file.parent for top in CODE[:2] for file in (ROOT / top).rglob("__init__.py"))
     return sorted({".".join(folder.relative_to(ROOT).parts) for folder in found} - {"book"})

@@ -77,10 +77,18 @@ CUT = """async () => {
 
 
 MATCHED = """(selectors) => selectors.filter((one) => document.querySelector(one))"""
-STATE = re.compile(
-    r":not\([^()]*\)|::[\w-]+|:(?:before|after|hover|active|focus[\w-]*|checked|disabled)\b"
-)
-"""What a selector asks of more than the document, or excludes."""
+FUNCTION, PSEUDO = re.compile(r"::?[\w-]+\([^()]*\)"), re.compile(r"::?[\w-]+")
+
+
+def of_document(selector: str) -> str:
+    """Return what a selector asks of classes, ids and tags; all that follows a colon is granted.
+
+    >>> of_document(".a:not(.b:has(> .c)) > :first-child + b::before")
+    '.a:is(*) > :is(*) + b:is(*)'
+    """
+    while FUNCTION.search(selector):
+        selector = FUNCTION.sub("\0", selector)
+    return re.sub("\0+", ":is(*)", PSEUDO.sub("\0", selector))
 
 
 def selectors(file: Path) -> set[str]:
@@ -91,12 +99,12 @@ def selectors(file: Path) -> set[str]:
             if rule.type == "qualified-rule":
                 commas = groupby(rule.prelude, lambda token: token == ",")
                 for part in (list(part) for comma, part in commas if not comma):
-                    yield STATE.sub("", tinycss2.serialize(part)).strip()
+                    yield of_document(tinycss2.serialize(part)).strip()
             elif rule.type == "at-rule" and rule.lower_at_keyword in ("media", "supports"):
                 yield from of_rules(tinycss2.parse_rule_list(rule.content, True, True))
 
     sheet = tinycss2.parse_stylesheet(file.read_text(encoding="utf-8"), True, True)
-    return {one for one in of_rules(sheet) if one and one[-1] not in ">+~"}
+    return set(of_rules(sheet))
 
 
 def left_out(html: Path) -> list[str]:
